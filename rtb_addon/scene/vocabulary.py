@@ -1,0 +1,107 @@
+"""
+The words for materials and lights that every renderer is asked to understand.
+
+RenderToolbox3's Generic names, extended once. What each renderer makes of them stands in
+renderers/fidelity.py.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from typing import Literal, NamedTuple
+
+from ..spectra import Spectrum, Unit
+
+
+class Parameter(NamedTuple):
+    """
+    One parameter of a material or light.
+
+    Parameters
+    ----------
+    kind : spectrum, number, text or reference (the id of another material or texture)
+    default : what it is when a recipe does not say; None where a recipe must say
+    unit : unit of the numbers; of a spectrum's values when kind is spectrum
+    """
+
+    kind: Literal["spectrum", "number", "text", "reference"]
+    default: float | str | None = None
+    unit: str = "1"
+
+    def default_value(self) -> Spectrum | float | str | None:
+        """Return the default as a renderer gets it, or None."""
+        if self.kind == "spectrum" and self.default is not None:
+            return Spectrum.constant(float(self.default), Unit(self.unit))
+        return self.default
+
+
+def reflectance(default: float | None = 0.5) -> Parameter:
+    """Return a reflectance parameter."""
+    return Parameter("spectrum", default)
+
+
+def number(default: float | None, unit: str = "1") -> Parameter:
+    """Return a number parameter."""
+    return Parameter("number", default, unit)
+
+
+def intensity(unit: Unit) -> Parameter:
+    """Return a light's intensity; 1 at every wavelength when unsaid, as in RenderToolbox3."""
+    return Parameter("spectrum", 1.0, unit.value)
+
+
+_INDICES = {"intIOR": number(1.5), "extIOR": number(1.0)}
+_TINTS = {"specularReflectance": reflectance(1.0), "specularTransmittance": reflectance(1.0)}
+_INDEX_SPECTRA = {"eta": reflectance(None), "k": reflectance(None)}
+_WRAPPED = {"materialID": Parameter("reference"), "textureID": Parameter("reference")}
+
+MATERIALS: Mapping[str, Mapping[str, Parameter]] = {
+    "matte": {"diffuseReflectance": reflectance()},
+    "anisoward": {
+        "diffuseReflectance": reflectance(),
+        "specularReflectance": reflectance(),
+        "alphaU": number(0.1),
+        "alphaV": number(0.1),
+        "variant": Parameter("text", "ward"),
+    },
+    "metal": {**_INDEX_SPECTRA, "roughness": number(0.4)},
+    "mirror": {"specularReflectance": reflectance(1.0)},
+    "glass": {**_INDICES, **_TINTS},
+    "thinglass": {**_INDICES, **_TINTS},
+    "roughglass": {**_INDICES, **_TINTS, "roughness": number(0.1)},
+    "plastic": {**_INDICES, "diffuseReflectance": reflectance()},
+    "roughplastic": {**_INDICES, "diffuseReflectance": reflectance(), "roughness": number(0.1)},
+    "principled": {
+        "baseColor": reflectance(),
+        "metallic": number(0.0),
+        "roughness": number(0.5),
+        "specular": number(0.5),
+    },
+    "blend": {
+        "materialID": Parameter("reference"),
+        "otherMaterialID": Parameter("reference"),
+        "weight": number(0.5),
+    },
+    "mask": {"materialID": Parameter("reference"), "opacity": number(1.0)},
+    "measured": {"filename": Parameter("text")},
+    "fluorescent": {"filename": Parameter("text")},
+    "bumpmap": {**_WRAPPED, "scale": number(1.0)},
+    "normalmap": _WRAPPED,
+}
+
+LIGHTS: Mapping[str, Mapping[str, Parameter]] = {
+    "point": {"intensity": intensity(Unit.INTENSITY), "radius": number(0.0, "m")},
+    "spot": {
+        "intensity": intensity(Unit.INTENSITY),
+        "cone": number(45.0, "degrees, the full angle"),
+        "blend": number(0.0),
+        "radius": number(0.0, "m"),
+    },
+    "directional": {
+        "intensity": intensity(Unit.IRRADIANCE),
+        "angle": number(0.0, "degrees, the sun's diameter"),
+    },
+    "area": {"intensity": intensity(Unit.RADIANCE)},
+    "environment": {"intensity": intensity(Unit.RADIANCE), "filename": Parameter("text", "")},
+    "sunsky": {"turbidity": number(3.0)},
+}
