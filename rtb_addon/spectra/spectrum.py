@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import dataclass, replace
-from enum import Enum
+from enum import StrEnum
 
 import numpy as np
 from numpy.typing import ArrayLike
@@ -14,7 +14,7 @@ from .bands import BandKind, Bands, FloatArray
 FULL_RANGE = (360.0, 830.0)
 
 
-class Unit(str, Enum):
+class Unit(StrEnum):
     """What the numbers of a spectrum are."""
 
     RATIO = "1"

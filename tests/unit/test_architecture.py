@@ -1,0 +1,98 @@
+"""The floors of the house: imports go down, and only some rooms know Blender."""
+
+import ast
+from pathlib import Path
+
+ROOT = Path(__file__).resolve().parents[2]
+FLOORS = {
+    "__init__.py": 8,
+    "panels": 7,
+    "operators": 6,
+    "rtb_addon/__main__.py": 6,
+    "rtb_addon/blender": 5,
+    "rtb_addon/batch.py": 5,
+    "rtb_addon/worker.py": 5,
+    "rtb_addon/montage.py": 4,
+    "rtb_addon/renderers": 4,
+    "rtb_addon/recipe.py": 4,
+    "rtb_addon/colorimetry.py": 3,
+    "rtb_addon/spectral_image.py": 3,
+    "rtb_addon/mappings.py": 3,
+    "rtb_addon/spectra": 2,
+    "rtb_addon/scene": 2,
+    "rtb_addon/conditions.py": 2,
+    "rtb_addon/background.py": 1,
+    "rtb_addon/errors.py": 1,
+    "rtb_addon/files.py": 1,
+}
+BLENDER = {"bpy", "mathutils", "gpu", "bpy_extras", "addon_utils"}
+BLENDER_ROOMS = ("__init__.py", "operators", "panels", "rtb_addon/blender")
+
+
+def modules():
+    rooms = ["__init__.py", "panels/*.py", "operators/*.py", "rtb_addon/**/*.py"]
+    return [path for room in rooms for path in ROOT.glob(room)]
+
+
+def room_of(relative: str) -> str | None:
+    return next((r for r in FLOORS if relative == r or relative.startswith(r + "/")), None)
+
+
+def imported(path: Path):
+    """Yield (line, name): paths below the root for relative imports, package names for others."""
+    for node in ast.walk(ast.parse(path.read_text())):
+        if isinstance(node, ast.Import):
+            yield from ((node.lineno, alias.name.split(".")[0]) for alias in node.names)
+        elif isinstance(node, ast.ImportFrom) and node.level == 0:
+            yield node.lineno, (node.module or "").split(".")[0]
+        elif isinstance(node, ast.ImportFrom):
+            base = path.parents[node.level - 1] / (node.module or "").replace(".", "/")
+            for alias in node.names:
+                target = next(
+                    (t for t in (base / f"{alias.name}.py", base / alias.name) if t.exists()), base
+                )
+                target = target if target.exists() else base.with_suffix(".py")
+                yield node.lineno, target.relative_to(ROOT).as_posix()
+
+
+def test_imports_go_down():
+    wrong = []
+    for path in modules():
+        relative = path.relative_to(ROOT).as_posix()
+        here = room_of(relative)
+        for line, name in imported(path):
+            there = room_of(name)
+            if here and there and there != here and FLOORS[there] > FLOORS[here]:
+                wrong.append(f"{relative}:{line} imports {name}, which is above it")
+    assert not wrong, "\n".join(wrong)
+
+
+def test_every_module_has_a_floor():
+    public = ("rtb_addon/__init__.py", "rtb_addon/data")
+    strays = [
+        name
+        for path in modules()
+        if room_of(name := path.relative_to(ROOT).as_posix()) is None and not name.startswith(public)
+    ]
+    assert not strays
+
+
+def test_only_the_bridge_and_what_stands_on_it_knows_blender():
+    wrong = [
+        f"{relative}:{line} imports {name}"
+        for path in modules()
+        if not (relative := path.relative_to(ROOT).as_posix()).startswith(BLENDER_ROOMS)
+        for line, name in imported(path)
+        if name in BLENDER
+    ]
+    assert not wrong, "\n".join(wrong)
+
+
+def test_our_own_packages_are_imported_relatively():
+    ours = {"rtb_addon", "operators", "panels"}
+    wrong = [f"{path.name}:{line}" for path in modules() for line, name in imported(path) if name in ours]
+    assert not wrong
+
+
+def test_nobody_touches_the_search_path():
+    assert not [path.name for path in modules() if "sys.path" in path.read_text()]
