@@ -12,9 +12,15 @@ FLOORS = {
     "rtb_addon/blender": 5,
     "rtb_addon/batch.py": 5,
     "rtb_addon/worker.py": 5,
+    "rtb_addon/keys.py": 5,
+    "rtb_addon/import_recipe.py": 5,
     "rtb_addon/montage.py": 4,
     "rtb_addon/renderers": 4,
     "rtb_addon/recipe.py": 4,
+    "rtb_addon/recipe_options.py": 4,
+    "rtb_addon/recipe_problems.py": 4,
+    "rtb_addon/recipe_scene.py": 4,
+    "rtb_addon/resources.py": 4,
     "rtb_addon/colorimetry.py": 3,
     "rtb_addon/spectral_image.py": 3,
     "rtb_addon/mappings.py": 3,
@@ -24,6 +30,7 @@ FLOORS = {
     "rtb_addon/background.py": 1,
     "rtb_addon/errors.py": 1,
     "rtb_addon/files.py": 1,
+    "rtb_addon/locks.py": 1,
 }
 BLENDER = {"bpy", "mathutils", "gpu", "bpy_extras", "addon_utils"}
 BLENDER_ROOMS = ("__init__.py", "operators", "panels", "rtb_addon/blender")

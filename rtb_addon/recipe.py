@@ -1,0 +1,268 @@
+"""A recipe: a folder that holds everything a family of renderings needs."""
+
+from __future__ import annotations
+
+import json
+from collections.abc import Mapping
+from dataclasses import dataclass, field, fields, replace
+from functools import cached_property
+from pathlib import Path
+from typing import Any
+
+from . import locks
+from .conditions import Condition, Conditions, format_conditions, read_conditions
+from .errors import RecipeError
+from .files import write_bytes, write_text
+from .mappings import Mappings, read_mappings
+from .recipe_options import Conventions, MontageOptions, RecipeOptions, section, section_words
+from .recipe_problems import problems
+from .resources import Resources
+from .scene.document import Scene
+
+FORMAT = 1
+RECIPE, PARENT, CONDITIONS, MAPPINGS = "recipe.json", "parent.dae", "conditions.txt", "mappings.txt"
+_SECTIONS = {"options": RecipeOptions, "conventions": Conventions, "montage": MontageOptions}
+
+
+@dataclass(frozen=True, eq=False)
+class Recipe:
+    """
+    A recipe and its folder.
+
+    Parameters
+    ----------
+    folder : where it lives
+    name : of the family; unnamed conditions are called after it
+    options : how to render, where neither a condition nor the command line says otherwise
+    conventions : what its numbers mean
+    montage : how its renderings become one picture
+    provenance : who made it, with what
+    words : recipe.json as it was found; keys that nobody knows are kept
+    overrides : options that the command line sets
+    """
+
+    folder: Path
+    name: str
+    options: RecipeOptions = field(default_factory=RecipeOptions)
+    conventions: Conventions = field(default_factory=Conventions)
+    montage: MontageOptions = field(default_factory=MontageOptions)
+    provenance: Mapping[str, Any] = field(default_factory=dict)
+    words: Mapping[str, Any] = field(default_factory=dict, repr=False)
+    overrides: Mapping[str, Any] = field(default_factory=dict)
+    resources: Resources = field(init=False, repr=False)
+    _read: dict[Path, Any] = field(default_factory=dict, init=False, repr=False)
+
+    def __post_init__(self) -> None:
+        object.__setattr__(self, "folder", Path(self.folder).absolute())
+        object.__setattr__(self, "resources", Resources(self.folder))
+
+    @classmethod
+    def load(cls, folder: Path | str) -> Recipe:
+        """Read the recipe in a folder; its tables, mappings and scenes are read when somebody asks."""
+        file = Path(folder) / RECIPE
+        if not file.is_file():
+            raise RecipeError(f"{folder} is no recipe folder: it holds no {RECIPE}")
+        try:
+            words = json.loads(file.read_text(encoding="utf-8"))
+        except json.JSONDecodeError as error:
+            raise RecipeError(f"{error.msg}, it must be JSON", RECIPE, error.lineno) from error
+        except UnicodeDecodeError as error:
+            raise RecipeError("it must be JSON in UTF-8", RECIPE) from error
+        except OSError as error:
+            raise RecipeError(f"it cannot be read: {error.strerror}", RECIPE) from error
+        return cls(Path(folder), **_parsed(words, Path(folder).absolute().name))
+
+    def save(self) -> None:
+        """Write recipe.json, with the keys of others that it held."""
+        locks.refuse_if_locked(self.folder)
+        text = json.dumps(self._as_words(), indent=2, ensure_ascii=False) + "\n"
+        write_text(self.folder / RECIPE, text)
+
+    def overridden(self, **options: Any) -> Recipe:
+        """Return the recipe with options that win over its conditions; None stands for the recipe's own."""
+        said = {name: value for name, value in options.items() if value is not None}
+        return replace(self, overrides={**self.overrides, **said})
+
+    @cached_property
+    def conditions(self) -> Conditions:
+        """The table; one condition called after the recipe when there is none."""
+        file = self.folder / CONDITIONS
+        return read_conditions(file, self.name) if file.is_file() else Conditions.single(self.name)
+
+    @cached_property
+    def mappings(self) -> Mappings:
+        """What conditions change in the scene, where none names a mappings file of its own."""
+        file = self.folder / MAPPINGS
+        return self._once(file, read_mappings) if file.is_file() else Mappings()
+
+    def mappings_of(self, condition: Condition) -> Mappings:
+        """Return the mappings of a condition: the recipe's, or its mappingsFile."""
+        if not (name := condition.cells.get("mappingsFile")):
+            return self.mappings
+        return self._once(self._file_of(condition, name, "mappings file"), read_mappings)
+
+    def parent_file(self, condition: Condition) -> Path:
+        """Return the parent scene's file of a condition: the recipe's, or its colladaFile."""
+        if name := condition.cells.get("colladaFile"):
+            return self._file_of(condition, name, "parent scene")
+        if not (file := self.folder / PARENT).is_file():
+            raise RecipeError(f"{self.folder} holds no {PARENT}, the parent scene of its conditions")
+        return file
+
+    def parent_of(self, condition: Condition) -> Scene:
+        """Return the parent scene of a condition."""
+        return self._once(self.parent_file(condition), Scene.read)
+
+    def options_of(self, condition: Condition) -> RecipeOptions:
+        """Return a condition's options: the command line's before the row's before recipe.json's."""
+        cells = {
+            option: value
+            for option, column in _COLUMNS.items()
+            if (value := condition.cells.get(column)) and option not in self.overrides
+        }
+        chosen = {**{name: _cell_value(name, text) for name, text in cells.items()}, **self.overrides}
+        try:
+            return replace(self.options, **chosen)
+        except ValueError as error:
+            place = (CONDITIONS, condition.line) if cells else (None, None)
+            raise RecipeError(str(error), *place) from error
+
+    def find_file(self, name: str) -> Path | None:
+        """Return a file of the recipe by the name that a cell, a mapping or the parent scene gives it."""
+        return self.resources.find(name)
+
+    @property
+    def scenes_folder(self) -> Path:
+        """Where native scenes go, a folder for each renderer."""
+        return self.folder / "scenes"
+
+    def rendering_file(self, condition: Condition) -> Path:
+        """Return where a condition's radiance cube is kept."""
+        return self.folder / "renderings" / self.options_of(condition).renderer / f"{condition.name}.exr"
+
+    def record_file(self, condition: Condition) -> Path:
+        """Return where it is written how a condition's cube was made."""
+        return self.rendering_file(condition).with_suffix(".json")
+
+    def montage_file(self, renderer: str) -> Path:
+        """Return where the picture of all conditions is kept."""
+        return self.folder / "images" / renderer / f"{self.name}.png"
+
+    def unknown_words(self) -> list[str]:
+        """Return one sentence for each key of recipe.json that nobody knows."""
+        found = [name for name in self.words if name not in _KNOWN]
+        for name, kind in _SECTIONS.items():
+            known = {item.name for item in fields(kind)} - {"renderer", "centres"}
+            found += [f"{name}.{key}" for key in self.words.get(name, {}) if key not in known]
+        return [f"{RECIPE}: {name} is kept, but means nothing to this version" for name in found]
+
+    def problems(self) -> list[RecipeError]:
+        """Return everything that is wrong with the recipe, not the first thing only."""
+        return problems(self)
+
+    def _file_of(self, condition: Condition, name: str, what: str) -> Path:
+        file = self.find_file(name)
+        if file is None:
+            raise RecipeError(
+                f"the {what} {name} is not in {self.folder}, copy it into resources/",
+                CONDITIONS,
+                condition.line,
+            )
+        return file
+
+    def _once(self, file: Path, read: Any) -> Any:
+        if file not in self._read:
+            self._read[file] = read(file)
+        return self._read[file]
+
+    def _as_words(self) -> dict[str, Any]:
+        options = section_words(self.options)
+        written = {"format": FORMAT, "name": self.name, "renderer": options.pop("renderer")}
+        sections = {"options": options} | {
+            name: section_words(getattr(self, name)) for name in ("conventions", "montage")
+        }
+        kept = {name: {**self.words.get(name, {}), **words} for name, words in sections.items()}
+        return {**self.words, **written, **kept, "provenance": dict(self.provenance)}
+
+
+_KNOWN = {"format", "name", "renderer", "provenance", *_SECTIONS}
+_COLUMNS = {"renderer": "renderer", "width": "imageWidth", "height": "imageHeight", "camera": "camera"}
+
+
+def write_recipe(
+    folder: Path,
+    name: str,
+    options: RecipeOptions,
+    conventions: Conventions,
+    montage: MontageOptions,
+    parent: bytes,
+    conditions: Conditions,
+    mappings: str,
+    resources: Mapping[str, bytes],
+    provenance: Mapping[str, Any],
+) -> Recipe:
+    """
+    Write a recipe's folder and return the recipe; what a folder held besides is kept.
+
+    Parameters
+    ----------
+    parent : the parent scene, Collada 1.4.1
+    mappings : text of the mappings file
+    resources : contents of files by their names below resources/
+    provenance : who made it, with what
+    """
+    folder = Path(folder)
+    locks.refuse_if_locked(folder)
+    old = Recipe.load(folder).words if (folder / RECIPE).is_file() else {}
+    for file, content in resources.items():
+        write_bytes(folder / "resources" / file, content)
+    write_bytes(folder / PARENT, parent)
+    write_text(folder / MAPPINGS, mappings)
+    if conditions.variables:
+        write_text(folder / CONDITIONS, format_conditions(conditions))
+    else:
+        (folder / CONDITIONS).unlink(missing_ok=True)
+    recipe = Recipe(folder, name, options, conventions, montage, provenance, old)
+    recipe.save()
+    return recipe
+
+
+def _parsed(words: Any, default_name: str) -> dict[str, Any]:
+    """Return what recipe.json says as a Recipe's fields."""
+    if not isinstance(words, dict):
+        raise RecipeError(f"it holds no object, it must begin with {{ and say format: {FORMAT}", RECIPE)
+    version = words.get("format")
+    if not isinstance(version, int) or not 1 <= version <= FORMAT:
+        raise RecipeError(f"format is {json.dumps(version)}, this version reads format {FORMAT}", RECIPE)
+    name = words.get("name", default_name)
+    if not isinstance(name, str) or not name.strip() or any(letter in name for letter in '/\\:*?"<>|\0'):
+        raise RecipeError(f"name is {json.dumps(name)}, it must be a text fit for a file's name", RECIPE)
+    provenance = words.get("provenance", {})
+    if not isinstance(provenance, dict):
+        raise RecipeError("provenance must be an object of names and values", RECIPE)
+    sections = {key: _parsed_section(words, key) for key in _SECTIONS}
+    return {"name": name, "provenance": provenance, "words": words, **sections}
+
+
+def _parsed_section(words: Mapping[str, Any], name: str) -> Any:
+    said = words.get(name, {})
+    if not isinstance(said, dict):
+        raise RecipeError(f"{name} must be an object of names and values", RECIPE)
+    if name == "options" and "renderer" in words:
+        said = {**said, "renderer": words["renderer"]}
+    try:
+        return section(_SECTIONS[name], said)
+    except ValueError as error:
+        raise RecipeError(f"{name}: {error}", RECIPE) from error
+
+
+def _cell_value(option: str, text: str) -> Any:
+    """Return a cell as an option's value; of several numbers the first counts, as in RenderToolbox3."""
+    if option == "renderer":
+        return text.strip().lower()
+    if option == "camera":
+        return text.strip()
+    try:
+        return int(float(text.split()[0]))
+    except (ValueError, IndexError, OverflowError):
+        return text

@@ -1,0 +1,74 @@
+"""Everything that is wrong with a recipe, found without rendering."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from typing import TYPE_CHECKING, NamedTuple
+
+from . import renderers
+from .errors import RecipeError
+from .recipe_scene import adjustments_of, resolve_condition, unsupported
+from .renderers.fidelity import fidelity
+
+if TYPE_CHECKING:
+    from .conditions import Condition
+    from .recipe import Recipe
+
+
+class Finding(NamedTuple):
+    """One thing to say about a recipe: a problem, or only a warning."""
+
+    problem: RecipeError | None
+    warning: str = ""
+
+
+def problems(recipe: Recipe) -> list[RecipeError]:
+    """Return everything that is wrong, each once."""
+    return [finding.problem for finding in findings(recipe) if finding.problem is not None]
+
+
+def findings(recipe: Recipe) -> list[Finding]:
+    """Return everything that is wrong or odd, each once."""
+    once = {str(f.problem or f.warning): f for f in _findings(recipe)}
+    return list(once.values())
+
+
+def _findings(recipe: Recipe) -> Iterator[Finding]:
+    yield from (Finding(None, sentence) for sentence in recipe.unknown_words())
+    try:
+        conditions = recipe.conditions
+    except RecipeError as error:
+        yield Finding(error)
+        conditions = ()
+        yield from _mapping_problems(recipe)
+    for condition in conditions:
+        yield from _condition_findings(recipe, condition)
+    yield from (Finding(None, sentence) for sentence in recipe.resources.warnings)
+
+
+def _mapping_problems(recipe: Recipe) -> Iterator[Finding]:
+    try:
+        recipe.mappings  # noqa: B018  reading is what raises
+    except RecipeError as error:
+        yield Finding(error)
+
+
+def _condition_findings(recipe: Recipe, condition: Condition) -> Iterator[Finding]:
+    try:
+        name = recipe.options_of(condition).renderer
+        version = renderers.find(name).version()
+        if version.version is None:
+            yield Finding(RecipeError(f"the renderer {name} is not here: {version.reason}"))
+        adjustments = adjustments_of(recipe, condition, recipe.find_file)
+        resolved = resolve_condition(recipe, condition, adjustments)
+    except RecipeError as error:
+        yield Finding(error)
+        return
+    yield from (Finding(None, sentence) for sentence in resolved.warnings)
+    yield from (_unsupported(name, feature) for feature in unsupported(name, resolved.scene))
+
+
+def _unsupported(renderer: str, word: str) -> Finding:
+    able = [name for name in renderers.names() if fidelity(name, word).level != "absent"]
+    remedy = f"choose {' or '.join(able)}" if able else "no renderer here knows it"
+    return Finding(RecipeError(f"{renderer} knows no {word}, {remedy}"))

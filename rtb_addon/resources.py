@@ -1,0 +1,102 @@
+"""Files of a recipe by name: inside its folder, or those that RenderToolbox3 served to everybody."""
+
+from __future__ import annotations
+
+import os
+import tempfile
+from functools import cached_property
+from pathlib import Path, PurePosixPath, PureWindowsPath
+from urllib.parse import unquote
+
+from .errors import RecipeError
+from .files import write_text
+from .spectra.files import spd_text
+from .spectra.library import served
+
+# What a batch writes itself; a file there never stands in for one of the recipe.
+GENERATED = {"scenes", "renderings", "layers", "images"}
+
+
+class Resources:
+    """
+    Looks files up in a recipe's folder, each name once.
+
+    Attributes
+    ----------
+    warnings : one sentence for each file that came from the library
+    """
+
+    def __init__(self, folder: Path) -> None:
+        self.folder = folder
+        self.warnings: list[str] = []
+        self._found: dict[str, Path | None] = {}
+
+    def find(self, name: str) -> Path | None:
+        """
+        Return the file of a name, or None: resources/ first, then the folder, then by base name in it.
+
+        Spectra that RenderToolbox3 served, such as D65.spd, are written into resources/ with a warning.
+        A name that leads out of the folder finds a file of its base name inside, or raises.
+        """
+        if name not in self._found:
+            self._found[name] = self._inside(name) or self._served(name)
+            if self._found[name] is None:
+                refuse_outside(name)
+        return self._found[name]
+
+    def _inside(self, name: str) -> Path | None:
+        for plain in dict.fromkeys((name.replace("\\", "/"), unquote(name.removeprefix("file://")))):
+            if not leads_outside(plain):
+                for candidate in (self.folder / "resources" / plain, self.folder / plain):
+                    # os.path says no where pathlib raises: a name may be any text of a cell.
+                    if plain and os.path.isfile(candidate):  # noqa: PTH113
+                        return self._kept_inside(candidate)
+            if file := self._by_base_name.get(PurePosixPath(plain).name):
+                return self._kept_inside(file)
+        return None
+
+    def _kept_inside(self, file: Path) -> Path:
+        if not file.resolve().is_relative_to(self.folder.resolve()):
+            raise RecipeError(f"{file} leads outside the recipe's folder, put the file itself there")
+        return file
+
+    @cached_property
+    def _by_base_name(self) -> dict[str, Path]:
+        found: dict[str, Path] = {}
+        for place, folders, files in os.walk(self.folder):
+            inside = Path(place) != self.folder
+            folders[:] = sorted(f for f in folders if "." not in f and (inside or f not in GENERATED))
+            for file in sorted(files):
+                if not file.startswith(".") and not file.endswith("~"):
+                    found.setdefault(file, Path(place) / file)
+        return found
+
+    def _served(self, name: str) -> Path | None:
+        if (spectrum := served(name)) is None:
+            return None
+        self.warnings.append(
+            f"{name} is not in the recipe's folder, the library's own was put into resources/"
+        )
+        text = spd_text(spectrum)
+        try:
+            write_text(self.folder / "resources" / name, text)
+            return self.folder / "resources" / name
+        except RecipeError:  # a recipe that may only be read can still be checked
+            write_text(Path(self._elsewhere.name) / name, text)
+            return Path(self._elsewhere.name) / name
+
+    @cached_property
+    def _elsewhere(self) -> tempfile.TemporaryDirectory:
+        return tempfile.TemporaryDirectory(prefix="rtb-")
+
+
+def leads_outside(name: str) -> bool:
+    """Return whether a name leads out of the folder it is looked up in."""
+    absolute = PurePosixPath(name).is_absolute() or PureWindowsPath(name).is_absolute()
+    return absolute or ".." in PureWindowsPath(name).parts
+
+
+def refuse_outside(name: str) -> None:
+    """Raise one sentence when a name leads out of the folder it is looked up in."""
+    if leads_outside(name):
+        raise RecipeError(f"{name} lies outside the recipe's folder, copy the file into resources/")
