@@ -2,13 +2,16 @@
 
 from __future__ import annotations
 
+import glob
 import os
+import socket
 import tempfile
 from collections.abc import Iterator
-from contextlib import contextmanager
+from contextlib import contextmanager, suppress
 from pathlib import Path
 
 from .errors import RecipeError
+from .processes import runs
 
 
 @contextmanager
@@ -20,7 +23,7 @@ def replacing(path: Path) -> Iterator[Path]:
     """
     try:
         path.parent.mkdir(parents=True, exist_ok=True)
-        handle, name = tempfile.mkstemp(suffix=path.suffix, prefix=".writing-", dir=path.parent)
+        handle, name = tempfile.mkstemp(suffix=path.suffix, prefix=_prefix(os.getpid()), dir=path.parent)
     except OSError as error:
         raise RecipeError(f"cannot write {path.name} into {path.parent}: {error.strerror}") from error
     os.close(handle)
@@ -45,6 +48,21 @@ def write_bytes(path: Path, content: bytes) -> bool:
 def write_text(path: Path, content: str) -> bool:
     """Write a UTF-8 file with Unix line ends unless it already holds just this."""
     return write_bytes(path, content.encode())
+
+
+def sweep(folder: Path) -> None:
+    """Remove the temporary files that killed processes of this computer left below a folder."""
+    mine = _prefix(0).removesuffix("0-")
+    for file in folder.rglob(f"{glob.escape(mine)}*"):
+        pid = file.name.removeprefix(mine).partition("-")[0]
+        if pid.isdigit() and not runs(int(pid)):
+            with suppress(OSError):
+                file.unlink()
+
+
+def _prefix(pid: int) -> str:
+    """Return how the temporary files of a process of this computer begin."""
+    return f".writing-{socket.gethostname()}-{pid}-"
 
 
 def _umask() -> int:

@@ -5,7 +5,6 @@ from __future__ import annotations
 import json
 import os
 import socket
-import sys
 import tempfile
 import time
 from collections.abc import Iterator
@@ -14,6 +13,7 @@ from pathlib import Path
 from typing import NamedTuple
 
 from .errors import RecipeError
+from .processes import born, runs
 
 NAME = "batch.lock"
 
@@ -37,13 +37,13 @@ class Holder(NamedTuple):
     @property
     def alive(self) -> bool:
         """Whether it may still be at work; of another computer nothing is known, so it may."""
-        return self.host != socket.gethostname() or (_runs(self.pid) and _born(self.pid) == self.born)
+        return self.host != socket.gethostname() or (runs(self.pid) and born(self.pid) == self.born)
 
     @classmethod
     def here(cls) -> Holder:
         """Return this process."""
         now = time.strftime("%Y-%m-%d %H:%M:%S")
-        return cls(os.getpid(), socket.gethostname(), _born(os.getpid()), now)
+        return cls(os.getpid(), socket.gethostname(), born(os.getpid()), now)
 
 
 def holder(folder: Path) -> Holder | None:
@@ -130,38 +130,3 @@ def _read(path: Path) -> Holder | None:
         return Holder(int(words["pid"]), str(words["host"]), str(words["born"]), str(words["since"]))
     except (OSError, ValueError, KeyError, TypeError):
         return None
-
-
-def _born(pid: int) -> str:
-    """Return when a process started, in clock ticks since this boot; empty where nobody says."""
-    try:
-        boot = Path("/proc/sys/kernel/random/boot_id").read_text().strip()
-        # The program's name stands in brackets and may hold anything; the start is the 20th word after it.
-        return f"{boot} {Path(f'/proc/{pid}/stat').read_text().rpartition(')')[2].split()[19]}"
-    except (OSError, IndexError):
-        return ""
-
-
-def _runs(pid: int) -> bool:
-    if sys.platform == "win32":
-        return _runs_on_windows(pid)
-    try:
-        os.kill(pid, 0)
-    except ProcessLookupError:
-        return False
-    except PermissionError:
-        return True
-    return True
-
-
-def _runs_on_windows(pid: int) -> bool:
-    import ctypes
-
-    kernel = ctypes.windll.kernel32  # type: ignore[attr-defined]
-    query, still_active = 0x1000, 259
-    if not (process := kernel.OpenProcess(query, False, pid)):
-        return False
-    code = ctypes.c_ulong()
-    kernel.GetExitCodeProcess(process, ctypes.byref(code))
-    kernel.CloseHandle(process)
-    return code.value == still_active

@@ -13,6 +13,8 @@ FLOORS = {
     "rtb_addon/batch.py": 5,
     "rtb_addon/worker.py": 5,
     "rtb_addon/keys.py": 5,
+    "rtb_addon/rendering.py": 5,
+    "rtb_addon/crew.py": 5,
     "rtb_addon/import_recipe.py": 5,
     "rtb_addon/montage.py": 4,
     "rtb_addon/renderers": 4,
@@ -31,6 +33,8 @@ FLOORS = {
     "rtb_addon/errors.py": 1,
     "rtb_addon/files.py": 1,
     "rtb_addon/locks.py": 1,
+    "rtb_addon/processes.py": 1,
+    "rtb_addon/lifeline.py": 1,
 }
 BLENDER = {"bpy", "mathutils", "gpu", "bpy_extras", "addon_utils"}
 BLENDER_ROOMS = ("__init__.py", "operators", "panels", "rtb_addon/blender")

@@ -1,0 +1,215 @@
+"""Child processes that do the slow work, and the events they tell."""
+
+from __future__ import annotations
+
+import dataclasses
+import importlib.util
+import json
+import os
+import queue
+import signal
+import site
+import subprocess
+import sys
+import threading
+from collections import deque
+from contextlib import suppress
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Literal
+
+Kind = Literal["started", "progress", "done", "cached", "failed", "cancelled", "finished"]
+
+# What our children import and an extension brings in wheels of its own.
+_DEPENDENCIES = ("numpy", "lxml", "OpenEXR", "colour", "tqdm", "mitsuba", "drjit", "embreex", "llvm")
+_THREAD_COUNTS = ("OMP_NUM_THREADS", "OPENBLAS_NUM_THREADS", "MKL_NUM_THREADS", "VECLIB_MAXIMUM_THREADS")
+
+
+@dataclass(frozen=True)
+class Event:
+    """
+    Something that happened to a condition, or to the whole batch where no condition is named.
+
+    Parameters
+    ----------
+    kind : finished is the last event of a batch that was not cancelled
+    condition, renderer : whose rendering it is
+    fraction : how much of this rendering is done, 0 to 1
+    finished, total : conditions of the batch that need no more work, and all of them
+    remaining : expected time until the batch ends [s], None while nobody can know
+    message : one sentence, for failed
+    fault : for failed, whether the recipe is wrong or only this rendering failed
+    file : the radiance cube, for done and cached; the montage, for finished
+    seconds : what the rendering took [s]
+    warnings : one sentence each
+    """
+
+    kind: Kind
+    condition: str = ""
+    renderer: str = ""
+    fraction: float = 0.0
+    finished: int = 0
+    total: int = 0
+    remaining: float | None = None
+    message: str = ""
+    fault: Literal["", "recipe", "rendering"] = ""
+    file: str = ""
+    seconds: float = 0.0
+    warnings: tuple[str, ...] = ()
+
+    def to_json(self) -> str:
+        """Return the event as one line, without what is unsaid."""
+        said = {
+            item.name: value
+            for item in dataclasses.fields(self)
+            if (value := getattr(self, item.name)) != item.default
+        }
+        return json.dumps(said)
+
+    @classmethod
+    def from_json(cls, line: str) -> Event:
+        """Return the event of a line; a later version's additions are left out."""
+        words = json.loads(line)
+        known = {item.name for item in dataclasses.fields(cls)}
+        words["warnings"] = tuple(words.get("warnings", ()))
+        return cls(**{name: value for name, value in words.items() if name in known})
+
+
+def start_child(
+    arguments: list[str], module: str = "rtb_addon", threads: int | None = None
+) -> subprocess.Popen:
+    """
+    Start ``python -m rtb_addon ARGUMENTS`` with the Python that runs here.
+
+    Its standard streams are pipes of text: read them with an EventStream. It stops by itself when
+    its standard input closes or its parent dies. The folder it is started in is no place to import
+    from, since that may be a stranger's recipe.
+
+    Notes
+    -----
+    The child inherits the environment. That is right for variables of a launcher too, such as
+    DRJIT_LIBLLVM_PATH of a Blender in a folder of its own: the child is the same Python with the
+    same system libraries. Nothing here starts another Python.
+
+    Parameters
+    ----------
+    threads : what numerical libraries may use; None leaves it to them
+    """
+    return subprocess.Popen(
+        [sys.executable, "-P", "-m", module, *arguments],
+        stdin=subprocess.PIPE,
+        stdout=subprocess.PIPE,
+        stderr=subprocess.PIPE,
+        encoding="utf-8",
+        errors="replace",
+        env=_environment(threads),
+        # A group of its own: a Ctrl-C is the parent's to handle, and one kill takes its children too.
+        start_new_session=True,
+        creationflags=getattr(subprocess, "CREATE_NO_WINDOW", 0),
+    )
+
+
+def import_folders() -> list[str]:
+    """Return the folders that a child must be told to import from."""
+    folders = [str(Path(__file__).resolve().parents[1])]
+    own = {os.path.realpath(folder) for folder in site.getsitepackages()}
+    for name in _DEPENDENCIES:
+        spec = importlib.util.find_spec(name)
+        places = list(spec.submodule_search_locations or ()) if spec else []
+        places = places or ([spec.origin] if spec and spec.origin else [])
+        folders += [str(Path(place).parent) for place in places[:1]]
+    return [folder for folder in dict.fromkeys(folders) if os.path.realpath(folder) not in own]
+
+
+def _environment(threads: int | None) -> dict[str, str]:
+    inherited = os.environ.get("PYTHONPATH", "").split(os.pathsep)
+    paths = dict.fromkeys([*import_folders(), *inherited])
+    # Linux ties a child to the thread that started it: only the main one lives as long as the process.
+    bound = threading.current_thread() is threading.main_thread()
+    ours = {
+        "PYTHONPATH": os.pathsep.join(filter(None, paths)),
+        "RTB_PARENT": "process" if bound else "pipe",
+    }
+    counts = dict.fromkeys(_THREAD_COUNTS, str(threads)) if threads else {}
+    return {**os.environ, **counts, **ours}
+
+
+class EventStream:
+    """
+    Reads what a child says in threads, so that nobody waits for it.
+
+    Parameters
+    ----------
+    process : from start_child
+    inbox : where (stream, event) goes, with None for the end; its own unless several streams share one
+    """
+
+    def __init__(self, process: subprocess.Popen, inbox: queue.SimpleQueue | None = None) -> None:
+        self.process = process
+        self.inbox = inbox or queue.SimpleQueue()
+        self.ended = False
+        self._words: deque[str] = deque(maxlen=20)
+        self._threads = [
+            threading.Thread(target=read, daemon=True) for read in (self._read_events, self._read_words)
+        ]
+        for thread in self._threads:
+            thread.start()
+
+    def ready(self) -> list[Event]:
+        """Return the events that came since the last call; sets ``ended`` after the last one."""
+        events = []
+        with suppress(queue.Empty):
+            while not self.ended:
+                _, event = self.inbox.get_nowait()
+                self.ended = event is None
+                events += [event] if event else []
+        return events
+
+    def last_words(self) -> str:
+        """Return the last lines that an ended child wrote to its standard error."""
+        self._threads[1].join(timeout=1.0)
+        return "\n".join(self._words)
+
+    def _read_events(self) -> None:
+        assert self.process.stdout is not None
+        for line in self.process.stdout:
+            with suppress(ValueError, TypeError, AttributeError):  # not every line need be ours
+                self.inbox.put((self, Event.from_json(line)))
+        self.inbox.put((self, None))
+
+    def _read_words(self) -> None:
+        assert self.process.stderr is not None
+        for line in self.process.stderr:
+            if line.strip():
+                self._words.append(line.rstrip())
+
+
+def send(process: subprocess.Popen, line: str) -> bool:
+    """Write a line to a child; return whether it still listens."""
+    assert process.stdin is not None
+    try:
+        process.stdin.write(line + "\n")
+        process.stdin.flush()
+    except (OSError, ValueError):
+        return False
+    return True
+
+
+def stop(process: subprocess.Popen, grace: float = 0.5) -> None:
+    """Ask a child to stop by closing its input; kill it with its own children after a grace time [s]."""
+    assert process.stdin is not None
+    with suppress(OSError):
+        process.stdin.close()
+    try:
+        process.wait(grace)
+    except subprocess.TimeoutExpired:
+        _kill(process)
+        process.wait()
+
+
+def _kill(process: subprocess.Popen) -> None:
+    with suppress(OSError):
+        if hasattr(os, "killpg"):
+            os.killpg(process.pid, signal.SIGKILL)
+        else:
+            process.kill()
