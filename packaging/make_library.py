@@ -1,0 +1,45 @@
+"""Write the tables in rtb_addon/data from colour-science: python packaging/make_library.py"""
+
+import warnings
+from pathlib import Path
+
+with warnings.catch_warnings():
+    warnings.simplefilter("ignore")  # it tells which of its own optional packages are missing
+    import colour
+    from colour.colorimetry import SDS_BASIS_FUNCTIONS_CIE_ILLUMINANT_D_SERIES as DAYLIGHT
+
+DATA = Path(__file__).resolve().parents[1] / "rtb_addon" / "data"
+CHECKERS = ("BabelColor Average", "ColorChecker N Ohta", "ISO 17321-1")
+ORIGIN = f"# from colour-science {colour.__version__}; see SOURCES.md"
+
+
+def number(value: float) -> str:
+    return repr(float(value)).removesuffix(".0")
+
+
+def row(name: str, spectrum) -> str:
+    shape = spectrum.shape
+    return ",".join([name, number(shape.start), number(shape.interval), *map(number, spectrum.values)])
+
+
+def write(name: str, heading: str, rows: list[str]) -> None:
+    (DATA / name).write_text("\n".join([ORIGIN, f"# {heading}", *rows]) + "\n", encoding="utf-8")
+
+
+def main() -> None:
+    each = "name, first wavelength [nm], step [nm], values"
+    illuminants = [row(name, spectrum) for name, spectrum in colour.SDS_ILLUMINANTS.items()]
+    write("illuminants.csv", f"{each} [relative]", illuminants)
+    patches = [
+        row(f"{checker}/{patch}", spectrum)
+        for checker in CHECKERS
+        for patch, spectrum in colour.SDS_COLOURCHECKERS[checker].items()
+    ]
+    write("color_checkers.csv", f"{each} [reflectance]", patches)
+    columns = [DAYLIGHT["S0"].wavelengths, *(DAYLIGHT[name].values for name in ("S0", "S1", "S2"))]
+    basis = [",".join(map(number, line)) for line in zip(*columns, strict=True)]
+    write("daylight_basis.csv", "wavelength [nm], S0, S1, S2 [relative]", basis)
+
+
+if __name__ == "__main__":
+    main()

@@ -1,0 +1,79 @@
+"""
+Measured and standard spectra by name, out of the small tables in data/.
+
+The tables come from colour-science (packaging/make_library.py writes them), which Blender's own
+process must not import.
+"""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Mapping
+from difflib import get_close_matches
+from functools import cache
+from pathlib import Path
+
+import numpy as np
+
+from ..errors import RecipeError
+from .spectrum import Spectrum, Unit
+
+_DATA = Path(__file__).parents[1] / "data"
+_TABLES = {"illuminants.csv": Unit.SHAPE, "color_checkers.csv": Unit.RATIO}
+_OLD_PATCH = re.compile(r"mccbabel-(\d+)\.spd")
+_ROWS, _COLUMNS = 4, 6
+
+CHART = "BabelColor Average"
+
+
+def names() -> list[str]:
+    """Return every spectrum's name: the illuminants, then each checker's patches in the chart's order."""
+    return list(_all())
+
+
+def find(name: str) -> Spectrum:
+    """
+    Return a spectrum by its name, in any case of letters.
+
+    Illuminants (``D65``) are relative, as the CIE tabulates them; patches (``BabelColor Average/blue``) are
+    reflectances.
+    """
+    known = {each.lower(): each for each in _all()}
+    if (key := name.strip().lower()) in known:
+        return _all()[known[key]]
+    near = [known[each] for each in get_close_matches(key, known, n=3, cutoff=0.5)]
+    remedy = f"did you mean {', '.join(near)}" if near else "its names are those of colour-science, like D65"
+    raise RecipeError(f"no spectrum of the library is called '{name.strip()}', {remedy}")
+
+
+def patches(chart: str = CHART) -> list[str]:
+    """Return the names of a checker's 24 spectra, row by row as the chart hangs: 4 rows of 6."""
+    return [name for name in _all() if name.rpartition("/")[0] == chart]
+
+
+def served(filename: str) -> Spectrum | None:
+    """Return what the library serves for a file that came with RenderToolbox3, or None."""
+    base = re.split(r"[/\\]", filename)[-1].lower()
+    if base == "d65.spd":
+        return find("D65")
+    if base == "dimflat.spd":
+        return Spectrum.of([380, 780], [1, 1], Unit.SHAPE)
+    number = int(old.group(1)) if (old := _OLD_PATCH.fullmatch(base)) else 0
+    if not 1 <= number <= _ROWS * _COLUMNS:
+        return None
+    column, row = divmod(number - 1, _ROWS)  # RenderToolbox3 numbers down the columns
+    return _all()[patches()[row * _COLUMNS + column]]
+
+
+@cache
+def _all() -> Mapping[str, Spectrum]:
+    return {name: spectrum for table, unit in _TABLES.items() for name, spectrum in _read(table, unit)}
+
+
+def _read(table: str, unit: Unit):
+    """Yield a table's spectra; each line is a name, the first wavelength [nm], the step [nm], the values."""
+    for line in (_DATA / table).read_text(encoding="utf-8").splitlines():
+        if not line.startswith("#"):
+            name, start, step, *values = line.split(",")
+            wavelengths = float(start) + float(step) * np.arange(len(values))
+            yield name, Spectrum(wavelengths, np.array(values, float), unit)
