@@ -6,8 +6,10 @@ Tests, ``check`` and the panels read this one table.
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Iterator, Mapping
 from typing import Literal, NamedTuple
+
+from ..scene.render_scene import Light, Material, RenderScene, TextureUse
 
 
 class Fidelity(NamedTuple):
@@ -27,11 +29,57 @@ TABLE: Mapping[str, Mapping[str, Fidelity]] = {
     "light spot": {"mitsuba": EXACT, "tracer": EXACT},
     "light directional": {"mitsuba": EXACT, "tracer": EXACT},
     "light area": {"mitsuba": EXACT, "tracer": EXACT},
+    "light environment": {"mitsuba": EXACT, "tracer": EXACT},
     "camera perspective": {"mitsuba": EXACT, "tracer": EXACT},
     "camera orthographic": {"mitsuba": EXACT, "tracer": EXACT},
+    "bands averaged": {"mitsuba": EXACT, "tracer": EXACT},
+    "bands centre": {"mitsuba": EXACT, "tracer": EXACT},
 }
 
 
 def fidelity(renderer: str, feature: str) -> Fidelity:
     """Return how true a renderer is to a feature; absent when the table does not list it."""
     return TABLE.get(feature, {}).get(renderer.lower(), ABSENT)
+
+
+def unsupported(scene: RenderScene, renderer: str) -> list[str]:
+    """Return a sentence for everything in a scene that a renderer lacks; none when it can render it."""
+    return [
+        f"{what}, which {renderer} cannot render; {_choices(renderer, feature)}"
+        for feature, what in _features(scene)
+        if fidelity(renderer, feature).level == "absent"
+    ]
+
+
+def _features(scene: RenderScene) -> Iterator[tuple[str, str]]:
+    """Yield what a scene uses, as the table calls it and as a sentence begins."""
+    for material in scene.materials.values():
+        yield f"material {material.model}", f"material {material.id} is {material.model}"
+        yield from _textures(material)
+    for light in scene.lights:
+        yield f"light {light.kind}", f"light {light.id} is {light.kind}"
+    yield from _environment(scene.environment)
+    yield f"camera {scene.camera.projection}", f"camera {scene.camera.id} is {scene.camera.projection}"
+    yield f"bands {scene.film.band_kind}", f"the band values are to be {scene.film.band_kind}"
+
+
+def _textures(material: Material) -> Iterator[tuple[str, str]]:
+    for name, value in material.parameters.items():
+        if isinstance(value, TextureUse):
+            yield "texture", f"{name} of material {material.id} is texture {value.texture}"
+
+
+def _environment(environment: Light | None) -> Iterator[tuple[str, str]]:
+    if environment is None:
+        return
+    yield f"light {environment.kind}", f"the environment is {environment.kind}"
+    if picture := environment.parameters.get("filename"):
+        yield "light environment picture", f"the environment is the picture {picture}"
+
+
+def _choices(renderer: str, feature: str) -> str:
+    """Return what a renderer has instead of a feature it lacks."""
+    room = feature.split()[0]
+    known = [name.split(" ", 1)[1] for name in TABLE if name.startswith(f"{room} ")]
+    there = [name for name in known if fidelity(renderer, f"{room} {name}").level != "absent"]
+    return f"it knows {', '.join(there)}" if there else "give it a plain value"

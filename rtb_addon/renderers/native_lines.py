@@ -1,0 +1,116 @@
+"""
+Lines of a Mitsuba block that say how a picture is computed, in words that every renderer understands.
+
+A line is ``id:category:type``, which declares, or ``id:property.type = value``; RenderToolbox3 took
+any of ``. : $`` between the parts (formats.md, scene targets).
+"""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Iterable
+from dataclasses import replace
+from typing import NamedTuple
+
+from ..errors import RecipeError
+from ..scene.render_scene import Integrator
+from .interface import NativeLine
+
+INTEGRATORS = ("path", "direct")
+# What they change is the noise, so any of them may stand where a renderer has a sampler of its own.
+SAMPLERS = (
+    "independent",
+    "stratified",
+    "multijitter",
+    "orthogonal",
+    "ldsampler",
+    "halton",
+    "hammersley",
+    "sobol",
+)
+
+
+class NativeSetting(NamedTuple):
+    """
+    A native line taken apart.
+
+    Parameters
+    ----------
+    id : of the object that it declares or changes
+    name : category of a declaration, else the property
+    kind : type of the object or of the value
+    value : None in a declaration
+    """
+
+    id: str
+    name: str
+    kind: str
+    value: str | None
+
+    @property
+    def is_sampler(self) -> bool:
+        """Whether this is about a sampler; RenderToolbox3 names them CAMERA_sampler."""
+        return self.name == "sampler" or self.id == "sampler" or self.id.endswith("_sampler")
+
+    @property
+    def is_integrator(self) -> bool:
+        """Whether this is about the integrator."""
+        return self.name == "integrator" or self.id == "integrator"
+
+
+def parse_native_line(line: NativeLine) -> NativeSetting:
+    """Return the parts of a native line; RecipeError when it has too few or too many."""
+    target, equals, value = line.text.partition("=")
+    parts = [part.strip() for part in re.split(r"[.:$]", target)]
+    if len(parts) == 3 or (len(parts) == 2 and equals):
+        return NativeSetting(
+            parts[0], parts[1], parts[2] if len(parts) == 3 else "", value.strip() if equals else None
+        )
+    raise RecipeError(
+        f"cannot read '{line.text}', want id:category:type or id:property.type = value", line.file, line.line
+    )
+
+
+def integrator_with(integrator: Integrator, lines: Iterable[NativeLine], renderer: str) -> Integrator:
+    """Return the integrator as native lines change it; RecipeError for a line with no meaning here."""
+    for line in lines:
+        changes = _changes(parse_native_line(line), line)
+        if changes is None:
+            raise RecipeError(
+                f"{renderer} has no use for '{line.text}', it knows the integrators path and direct,"
+                " their maxDepth and a sampler's sampleCount",
+                line.file,
+                line.line,
+            )
+        integrator = replace(integrator, **changes)
+    return integrator
+
+
+def _changes(setting: NativeSetting, line: NativeLine) -> dict | None:
+    if setting.value is None:
+        return _declared(setting)
+    if setting.is_integrator and setting.name.lower() == "maxdepth":
+        return {"depth": _count(setting, line)}
+    if setting.is_sampler and setting.name.lower() == "samplecount":
+        return {"samples": _count(setting, line)}
+    return None
+
+
+def _declared(setting: NativeSetting) -> dict | None:
+    if setting.name == "integrator" and setting.kind in INTEGRATORS:
+        return {"kind": setting.kind}
+    if setting.name == "sampler" and setting.kind in SAMPLERS:
+        return {}
+    return None
+
+
+def _count(setting: NativeSetting, line: NativeLine) -> int:
+    try:
+        count = int(setting.value or "")
+    except ValueError:
+        count = 0
+    if count < 1:
+        raise RecipeError(
+            f"{setting.name} is '{setting.value}', want a whole number above 0", line.file, line.line
+        )
+    return count
