@@ -1,10 +1,11 @@
 """
 Build the extension zip with its wheels, for one Python of Blender's and one platform.
 
-    python packaging/build_extension.py                    for this Python, and for $BLENDER's when there is one
-    python packaging/build_extension.py --python 3.14      for that one
+    python packaging/build_extension.py                 for this Python, and for $BLENDER's if there is one
+    python packaging/build_extension.py --python 3.14   for that one
 
-Leaves ``dist/render_toolbox-VERSION-PYTHON-PLATFORM.zip``. Wheels stay in ``wheels/``, so that a second build needs no network.
+Leaves ``dist/render_toolbox-VERSION-PYTHON-PLATFORM.zip``. Wheels stay in ``wheels/``, so that a
+second build needs no network.
 """
 
 from __future__ import annotations

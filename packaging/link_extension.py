@@ -3,8 +3,8 @@ Let Blender see this checkout as the extension, without building a zip.
 
     BLENDER_USER_RESOURCES=FOLDER python packaging/link_extension.py
 
-links the checkout to FOLDER/extensions/user_default/render_toolbox. Every Blender and every bpy that starts with the same
-BLENDER_USER_RESOURCES then has it, to be enabled in the preferences or by a script:
+links the checkout to FOLDER/extensions/user_default/render_toolbox. Every Blender and every bpy that starts
+with the same BLENDER_USER_RESOURCES then has it, to be enabled in the preferences or by a script:
 
     addon_utils.enable("bl_ext.user_default.render_toolbox", default_set=True)
 """

@@ -1,4 +1,4 @@
-"""Which wheels an extension zip carries: the library's requirements, resolved for one of Blender's Pythons."""
+"""Which wheels an extension zip carries: what the library needs, resolved for one of Blender's Pythons."""
 
 from __future__ import annotations
 
@@ -19,7 +19,7 @@ ROOT = Path(__file__).resolve().parents[1]
 
 
 class Target(NamedTuple):
-    """One Python inside Blender: its version, Blender's platform name and the numpy that Blender ships there."""
+    """One Python inside Blender: its version, the platform as Blender calls it, the numpy shipped there."""
 
     python: str
     platform: str

@@ -29,6 +29,7 @@ FLOORS = {
     "rtb_addon/spectra": 2,
     "rtb_addon/scene": 2,
     "rtb_addon/conditions.py": 2,
+    "rtb_addon/exr.py": 2,
     "rtb_addon/background.py": 1,
     "rtb_addon/errors.py": 1,
     "rtb_addon/files.py": 1,
@@ -50,7 +51,7 @@ def room_of(relative: str) -> str | None:
 
 
 def imported(path: Path):
-    """Yield (line, name): paths below the root for relative imports, package names for others."""
+    """Yield (line, name): paths below the root for relative imports, folders with a slash; names for others."""
     for node in ast.walk(ast.parse(path.read_text())):
         if isinstance(node, ast.Import):
             yield from ((node.lineno, alias.name.split(".")[0]) for alias in node.names)
@@ -59,11 +60,9 @@ def imported(path: Path):
         elif isinstance(node, ast.ImportFrom):
             base = path.parents[node.level - 1] / (node.module or "").replace(".", "/")
             for alias in node.names:
-                target = next(
-                    (t for t in (base / f"{alias.name}.py", base / alias.name) if t.exists()), base
-                )
+                target = next((t for t in (base / f"{alias.name}.py", base / alias.name) if t.exists()), base)
                 target = target if target.exists() else base.with_suffix(".py")
-                yield node.lineno, target.relative_to(ROOT).as_posix()
+                yield node.lineno, target.relative_to(ROOT).as_posix() + "/" * target.is_dir()
 
 
 def test_imports_go_down():

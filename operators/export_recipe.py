@@ -1,0 +1,23 @@
+"""Write the recipe of a scene to its folder."""
+
+import bpy
+
+from ..rtb_addon.blender import read_recipe
+from ..rtb_addon.errors import RecipeError
+from . import findings
+
+
+class RTB_OT_export_recipe(bpy.types.Operator):
+    """Write the recipe to its folder, ready to render anywhere"""
+
+    bl_idname = "rtb.export_recipe"
+    bl_label = "Export Recipe"
+    bl_options = {"REGISTER"}
+
+    def execute(self, context):
+        try:
+            folder = findings.exported(read_recipe(context.scene))
+        except RecipeError as error:
+            return findings.refuse(self, error)
+        self.report({"INFO"}, f"Recipe written to {folder}")
+        return {"FINISHED"}

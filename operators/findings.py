@@ -1,0 +1,30 @@
+"""What the last export or batch found, one sentence each, for the panel to show."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+errors: list[str] = []
+remarks: list[str] = []
+
+
+def clear() -> None:
+    """Forget what was found before."""
+    errors.clear()
+    remarks.clear()
+
+
+def exported(recipe) -> Path:
+    """Save a scene's recipe and return its folder; what had to be assumed becomes remarks."""
+    clear()
+    folder = recipe.save()
+    remarks.extend(recipe.report)
+    return folder
+
+
+def refuse(operator, error: Exception) -> set[str]:
+    """Say in the panel and in the report why an operator cannot go on."""
+    clear()
+    errors.append(str(error))
+    operator.report({"ERROR"}, str(error))
+    return {"CANCELLED"}

@@ -1,0 +1,52 @@
+"""Montages as Blender's images, and the Image Editors that show them."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+import bpy
+
+MARK = "rtb_montage"
+
+
+def load(file: Path) -> bpy.types.Image:
+    """Return the image of a picture file, as the file is now."""
+    image = bpy.data.images.load(str(file), check_existing=True)
+    image.reload()
+    image[MARK] = True
+    return image
+
+
+def editor(context) -> bpy.types.Area | None:
+    """Return the Image Editor that shows a montage already, else one that is free to, else None."""
+    areas = [area for window in context.window_manager.windows for area in window.screen.areas]
+    return min((area for area in areas if _rank(area) is not None), key=_rank, default=None)
+
+
+def _rank(area: bpy.types.Area) -> tuple[int, int] | None:
+    if area.type != "IMAGE_EDITOR" or area.ui_type != "IMAGE_EDITOR" or area.spaces.active.use_image_pin:
+        return None
+    image = area.spaces.active.image
+    suits = 0 if image is not None and image.get(MARK) else 1 if image is None else 2
+    return suits, -area.width * area.height
+
+
+def split_viewport(context) -> bpy.types.Area | None:
+    """Open an Image Editor beside the 3D Viewport in hand, or the largest one, and return it."""
+    window = context.window or context.window_manager.windows[0]
+    viewports = [area for area in window.screen.areas if area.type == "VIEW_3D"]
+    if not viewports:
+        return None
+    viewport = context.area if context.area in viewports else max(viewports, key=lambda a: a.width * a.height)
+    before = {area.as_pointer() for area in window.screen.areas}
+    with context.temp_override(window=window, area=viewport):
+        bpy.ops.screen.area_split(direction="VERTICAL", factor=0.5)
+    added = next(area for area in window.screen.areas if area.as_pointer() not in before)
+    added.ui_type = "IMAGE_EDITOR"
+    return added
+
+
+def show(image: bpy.types.Image, area: bpy.types.Area) -> None:
+    """Show a montage in an Image Editor, whole."""
+    area.spaces.active.image = image
+    area.tag_redraw()

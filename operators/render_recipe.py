@@ -1,0 +1,36 @@
+"""Render the recipe of a scene, in a process of its own."""
+
+import bpy
+
+from ..rtb_addon.blender import read_recipe
+from ..rtb_addon.errors import RecipeError
+from . import findings, running
+
+
+class RTB_OT_render_recipe(bpy.types.Operator):
+    """Write the recipe and render every condition that is not done yet, while you go on working"""
+
+    bl_idname = "rtb.render_recipe"
+    bl_label = "Render Recipe"
+    bl_options = {"REGISTER"}
+
+    @classmethod
+    def poll(cls, context):
+        if running.batch is not None:
+            cls.poll_message_set("A recipe is being rendered: wait for it, or cancel it")
+        return running.batch is None
+
+    def execute(self, context):
+        try:
+            folder = findings.exported(read_recipe(context.scene))
+        except RecipeError as error:
+            return findings.refuse(self, error)
+        running.start(folder)
+        return self._followed() if bpy.app.background else {"FINISHED"}
+
+    def _followed(self):
+        """Wait for the batch, as there is no window to keep alive."""
+        batch = running.follow_to_the_end()
+        if findings.errors:
+            self.report({"ERROR"}, "; ".join(findings.errors))
+        return {"CANCELLED"} if batch.cancelled or findings.errors else {"FINISHED"}

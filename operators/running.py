@@ -1,0 +1,98 @@
+"""
+The batch that is rendering now, if any: one at a time for the file that is open.
+
+It lives here and not in Blender's data, so that undo and saving do not touch it.
+"""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+import bpy
+
+from . import findings, montages
+from .child_batch import ChildBatch
+
+INTERVAL = 0.1  # [s] between two looks at what the child has said
+
+batch: ChildBatch | None = None
+
+
+def start(folder: Path) -> ChildBatch:
+    """Start rendering a recipe's folder; with an interface, a timer follows it."""
+    global batch
+    batch = ChildBatch(folder)
+    if not bpy.app.background:
+        bpy.app.timers.register(_look, first_interval=INTERVAL, persistent=True)
+    return batch
+
+
+def follow_to_the_end() -> ChildBatch:
+    """Wait for the batch and return it."""
+    ending = batch
+    try:
+        ending.follow_to_the_end()
+    finally:
+        _conclude()
+    return ending
+
+
+def stop() -> None:
+    """End the batch now, for the file or the extension is about to go; what is done is kept."""
+    global batch
+    if batch is not None:
+        batch.stop()
+        batch = None
+    if bpy.app.timers.is_registered(_look):
+        bpy.app.timers.unregister(_look)
+
+
+def _look() -> float | None:
+    """Take in what the child has said; Blender calls this and goes on."""
+    if batch is None:
+        return None
+    if batch.take():
+        _redraw()
+    if not batch.ended:
+        return INTERVAL
+    _conclude()
+    return None
+
+
+def _conclude() -> None:
+    """Tell how the batch ended and show its montage, in an Image Editor where one is open."""
+    global batch
+    ended, batch = batch, None
+    findings.errors.extend(ended.failures)
+    findings.remarks.extend(text for text in ended.warnings if text not in findings.remarks)
+    if ended.montage is not None and ended.montage.is_file():
+        image = montages.load(ended.montage)
+        if not bpy.app.background and (area := montages.editor(bpy.context)):
+            montages.show(image, area)
+    _redraw()
+
+
+def _redraw() -> None:
+    """Let everything be drawn anew that shows the batch."""
+    for window in bpy.context.window_manager.windows:
+        for area in window.screen.areas:
+            if area.type in {"VIEW_3D", "IMAGE_EDITOR", "STATUSBAR"}:
+                area.tag_redraw()
+
+
+@bpy.app.handlers.persistent
+def _before_loading(*_) -> None:
+    stop()
+    findings.clear()
+
+
+def register() -> None:
+    """Watch for another file being opened."""
+    bpy.app.handlers.load_pre.append(_before_loading)
+
+
+def unregister() -> None:
+    """Leave no child and no timer behind."""
+    stop()
+    findings.clear()
+    bpy.app.handlers.load_pre.remove(_before_loading)

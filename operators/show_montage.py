@@ -1,0 +1,36 @@
+"""Show the montage of a scene's recipe in an Image Editor."""
+
+import bpy
+
+from ..rtb_addon.blender import recipe_folder
+from ..rtb_addon.errors import RecipeError
+from ..rtb_addon.recipe import Recipe
+from . import findings, montages
+
+
+class RTB_OT_show_montage(bpy.types.Operator):
+    """Show all renderings as one picture, in an Image Editor beside the viewport if none is open"""
+
+    bl_idname = "rtb.show_montage"
+    bl_label = "Show Montage"
+    bl_options = {"REGISTER"}
+
+    def execute(self, context):
+        try:
+            image = montages.load(montage_file(context.scene))
+        except RecipeError as error:
+            return findings.refuse(self, error)
+        if not bpy.app.background:
+            area = montages.editor(context) or montages.split_viewport(context)
+            montages.show(image, area)
+        return {"FINISHED"}
+
+
+def montage_file(scene):
+    """Return the picture that the last batch of a scene's recipe left."""
+    folder = recipe_folder(scene)
+    recipe = Recipe.load(folder)
+    file = recipe.montage_file(recipe.options.renderer)
+    if not file.is_file():
+        raise RecipeError(f"there is no montage in {folder} yet, press Render Recipe")
+    return file
