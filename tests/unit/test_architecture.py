@@ -51,7 +51,7 @@ def room_of(relative: str) -> str | None:
 
 
 def imported(path: Path):
-    """Yield (line, name): paths below the root for relative imports (a folder ends in a slash), else names."""
+    """Yield (line, name): paths below the root for relative imports, a folder with a slash; else names."""
     for node in ast.walk(ast.parse(path.read_text())):
         if isinstance(node, ast.Import):
             yield from ((node.lineno, alias.name.split(".")[0]) for alias in node.names)

@@ -12,8 +12,8 @@ ROOT = Path(__file__).resolve().parents[2]
 MANIFEST = tomllib.loads((ROOT / "blender_manifest.toml").read_text())
 BLENDERS_TAGS = """3D View, Add Curve, Add Mesh, Animation, Bake, Camera, Compositing, Development,
     Game Engine, Geometry Nodes, Grease Pencil, Import-Export, Lighting, Material, Modeling, Mesh, Node,
-    Object, Paint, Pipeline, Physics, Render, Rigging, Scene, Sculpt, Sequencer, System, Text Editor, Tracking,
-    User Interface, UV"""
+    Object, Paint, Pipeline, Physics, Render, Rigging, Scene, Sculpt, Sequencer, System, Text Editor,
+    Tracking, User Interface, UV"""
 
 
 def script(name: str):
