@@ -1,0 +1,59 @@
+"""What README and docs tell people to type works."""
+
+import re
+import subprocess
+import sys
+from pathlib import Path
+
+import pytest
+
+ROOT = Path(__file__).resolve().parents[2]
+PAGES = [ROOT / "README.md", ROOT / "CONTRIBUTING.md", *sorted((ROOT / "docs").rglob("*.md"))]
+BLOCK = re.compile(r"^```(\w*)\n(.*?)^```", re.M | re.S)
+
+
+def blocks(language: str):
+    return [
+        pytest.param(text, id=f"{page.name}-{at}")
+        for page in PAGES
+        for at, (kind, text) in enumerate(BLOCK.findall(page.read_text()))
+        if kind == language
+    ]
+
+
+def commands():
+    lines = {
+        line.split("#")[0].strip()
+        for page in PAGES
+        for kind, text in BLOCK.findall(page.read_text())
+        if kind == "sh"
+        for line in text.splitlines()
+    }
+    return sorted(lines - {""})
+
+
+@pytest.mark.parametrize("code", blocks("python"))
+def test_python_in_the_docs_runs(code, tmp_path, monkeypatch):
+    monkeypatch.chdir(tmp_path)
+    exec(compile(code, "docs", "exec"), {"__name__": "docs"})
+
+
+@pytest.mark.parametrize("line", [line for line in commands() if line.startswith("make")])
+def test_make_knows_the_targets_that_the_docs_name(line):
+    done = subprocess.run(["make", "--dry-run", *line.split()[1:]], cwd=ROOT, capture_output=True)
+    assert done.returncode == 0, done.stderr
+
+
+@pytest.mark.parametrize("line", [line for line in commands() if "-m rtb_addon" in line])
+def test_the_command_line_knows_the_commands_that_the_docs_name(line):
+    command = line.split("-m rtb_addon")[1].split()[0]
+    done = subprocess.run(
+        [sys.executable, "-m", "rtb_addon", command, "--help"], cwd=ROOT, capture_output=True
+    )
+    assert done.returncode == 0, done.stderr
+
+
+@pytest.mark.parametrize("page", PAGES, ids=lambda page: page.name)
+def test_links_between_pages_lead_somewhere(page):
+    targets = re.findall(r"\]\((?!https?:)([^)#]+)", page.read_text())
+    assert not [target for target in targets if not (page.parent / target).exists()]
