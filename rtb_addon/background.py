@@ -12,6 +12,7 @@ import site
 import subprocess
 import sys
 import threading
+import time
 from collections import deque
 from contextlib import suppress
 from dataclasses import dataclass
@@ -38,6 +39,7 @@ class Event:
     finished, total : conditions of the batch that need no more work, and all of them
     remaining : expected time until the batch ends [s], None while nobody can know
     message : one sentence, for failed
+    details : more for whoever looks for the cause, in the log only
     fault : for failed, whether the recipe is wrong or only this rendering failed
     file : the radiance cube, for done and cached; the montage, for finished
     seconds : what the rendering took [s]
@@ -52,6 +54,7 @@ class Event:
     total: int = 0
     remaining: float | None = None
     message: str = ""
+    details: str = ""
     fault: Literal["", "recipe", "rendering"] = ""
     file: str = ""
     seconds: float = 0.0
@@ -195,16 +198,29 @@ def send(process: subprocess.Popen, line: str) -> bool:
     return True
 
 
-def stop(process: subprocess.Popen, grace: float = 0.5) -> None:
+def stop(process: subprocess.Popen, grace: float = 1.0) -> None:
     """Ask a child to stop by closing its input; kill it with its own children after a grace time [s]."""
+    stop_all([process], grace)
+
+
+def stop_all(processes: list[subprocess.Popen], grace: float) -> None:
+    """Stop several children, which share one grace time [s]."""
+    for process in processes:
+        close_input(process)
+    end = time.monotonic() + grace
+    for process in processes:
+        try:
+            process.wait(max(0.0, end - time.monotonic()))
+        except subprocess.TimeoutExpired:
+            _kill(process)
+            process.wait()
+
+
+def close_input(process: subprocess.Popen) -> None:
+    """Let a child know that nothing more will come."""
     assert process.stdin is not None
     with suppress(OSError):
         process.stdin.close()
-    try:
-        process.wait(grace)
-    except subprocess.TimeoutExpired:
-        _kill(process)
-        process.wait()
 
 
 def _kill(process: subprocess.Popen) -> None:

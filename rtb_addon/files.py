@@ -23,7 +23,9 @@ def replacing(path: Path) -> Iterator[Path]:
     """
     try:
         path.parent.mkdir(parents=True, exist_ok=True)
-        handle, name = tempfile.mkstemp(suffix=path.suffix, prefix=_prefix(os.getpid()), dir=path.parent)
+        handle, name = tempfile.mkstemp(
+            suffix=path.suffix, prefix=temporary_prefix(os.getpid()), dir=path.parent
+        )
     except OSError as error:
         raise RecipeError(f"cannot write {path.name} into {path.parent}: {error.strerror}") from error
     os.close(handle)
@@ -52,7 +54,7 @@ def write_text(path: Path, content: str) -> bool:
 
 def sweep(folder: Path) -> None:
     """Remove the temporary files that killed processes of this computer left below a folder."""
-    mine = _prefix(0).removesuffix("0-")
+    mine = temporary_prefix(0).removesuffix("0-")
     for file in folder.rglob(f"{glob.escape(mine)}*"):
         pid = file.name.removeprefix(mine).partition("-")[0]
         if pid.isdigit() and not runs(int(pid)):
@@ -60,7 +62,7 @@ def sweep(folder: Path) -> None:
                 file.unlink()
 
 
-def _prefix(pid: int) -> str:
+def temporary_prefix(pid: int) -> str:
     """Return how the temporary files of a process of this computer begin."""
     return f".writing-{socket.gethostname()}-{pid}-"
 

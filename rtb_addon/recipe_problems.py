@@ -21,6 +21,16 @@ class Finding(NamedTuple):
     problem: RecipeError | None
     warning: str = ""
 
+    @property
+    def is_problem(self) -> bool:
+        """Whether nothing can be rendered because of it."""
+        return self.problem is not None
+
+    @property
+    def sentence(self) -> str:
+        """What to say."""
+        return str(self.problem or self.warning)
+
 
 def problems(recipe: Recipe) -> list[RecipeError]:
     """Return everything that is wrong, each once."""
@@ -29,7 +39,7 @@ def problems(recipe: Recipe) -> list[RecipeError]:
 
 def findings(recipe: Recipe) -> list[Finding]:
     """Return everything that is wrong or odd, each once."""
-    once = {str(f.problem or f.warning): f for f in _findings(recipe)}
+    once = {f.sentence: f for f in _findings(recipe)}
     return list(once.values())
 
 

@@ -3,7 +3,10 @@
 from __future__ import annotations
 
 import os
+import shutil
 import tempfile
+import weakref
+from contextlib import suppress
 from functools import cached_property
 from pathlib import Path, PurePosixPath, PureWindowsPath
 from urllib.parse import unquote
@@ -77,17 +80,19 @@ class Resources:
         self.warnings.append(
             f"{name} is not in the recipe's folder, the library's own was put into resources/"
         )
-        text = spd_text(spectrum)
-        try:
-            write_text(self.folder / "resources" / name, text)
-            return self.folder / "resources" / name
-        except RecipeError:  # a recipe that may only be read can still be checked
-            write_text(Path(self._elsewhere.name) / name, text)
-            return Path(self._elsewhere.name) / name
+        text, file = spd_text(spectrum), PureWindowsPath(name).name
+        for place in (self.folder / "resources", self._elsewhere):
+            # A recipe that may only be read can still be checked.
+            with suppress(RecipeError):
+                write_text(place / file, text)
+                return place / file
+        return None
 
     @cached_property
-    def _elsewhere(self) -> tempfile.TemporaryDirectory:
-        return tempfile.TemporaryDirectory(prefix="rtb-")
+    def _elsewhere(self) -> Path:
+        folder = tempfile.mkdtemp(prefix="rtb-")
+        weakref.finalize(self, shutil.rmtree, folder, ignore_errors=True)
+        return Path(folder)
 
 
 def leads_outside(name: str) -> bool:

@@ -1,0 +1,123 @@
+"""The command line: ``python -m rtb_addon VERB``; --help says the rest."""
+
+from __future__ import annotations
+
+import argparse
+import re
+import sys
+from collections.abc import Sequence
+from pathlib import Path
+
+from . import command_line as verbs
+from .errors import RecipeError, RenderingError
+
+WRONG, CANCELLED = 2, 130
+
+
+def main(arguments: Sequence[str] | None = None) -> int:
+    """Do what the arguments say and return the exit status: 0 done, 1 partly, 2 wrong, 130 cancelled."""
+    said = _parser().parse_args(arguments)
+    try:
+        return said.verb(said)
+    except RecipeError as error:
+        return _end(str(error), WRONG)
+    except RenderingError as error:
+        return _end(str(error), 1)
+    except OSError as error:  # a full disk, a folder that went away
+        return _end(f"{error.filename or 'system'}: {error.strerror or error}", 1)
+    except KeyboardInterrupt:
+        return CANCELLED
+
+
+def _end(sentence: str, status: int) -> int:
+    print(sentence, file=sys.stderr)
+    return status
+
+
+def _parser() -> argparse.ArgumentParser:
+    parser = argparse.ArgumentParser(
+        prog="python -m rtb_addon", description="Families of physically based, multispectral renderings."
+    )
+    verb = parser.add_subparsers(required=True, metavar="VERB", title="verbs")
+    _add_render(verb.add_parser("render", help="render every condition of a recipe that is not done yet"))
+    _add_check(verb.add_parser("check", help="say everything that is wrong with a recipe"))
+    _add_import(verb.add_parser("import", help="make a recipe folder of RenderToolbox3's files"))
+    _add_montage(verb.add_parser("montage", help="make one picture of all renderings"))
+    renderers = verb.add_parser("renderers", help="say which renderers are installed, and why not")
+    renderers.add_argument("--json", action="store_true", help="print a line of JSON for each")
+    renderers.set_defaults(verb=verbs.renderers_installed)
+    return parser
+
+
+def _add_render(render: argparse.ArgumentParser) -> None:
+    _add_folder(render)
+    render.add_argument("--conditions", type=_names, metavar="A,B", help="names of those to render, else all")
+    render.add_argument("--samples", type=_positive, metavar="N", help="paths per pixel")
+    render.add_argument("--size", type=_size, metavar="WxH", help="size of the images in pixels")
+    render.add_argument("--jobs", type=_positive, metavar="N", help="workers at once, else one a core")
+    render.add_argument("--threads", type=_positive, metavar="N", default=1, help="threads of each worker")
+    render.add_argument("--fresh", action="store_true", help="render even what is done")
+    render.add_argument("--json", action="store_true", help="print a line of JSON for each event")
+    render.set_defaults(verb=verbs.render)
+
+
+def _add_check(check: argparse.ArgumentParser) -> None:
+    _add_folder(check)
+    check.add_argument("--json", action="store_true", help="print a line of JSON for each finding")
+    check.set_defaults(verb=verbs.check)
+
+
+def _add_import(add: argparse.ArgumentParser) -> None:
+    add.add_argument("parent", type=Path, metavar="PARENT.dae", help="the parent scene")
+    add.add_argument("conditions", type=Path, nargs="?", metavar="CONDITIONS", help="the table")
+    add.add_argument("mappings", type=Path, nargs="?", metavar="MAPPINGS", help="the mappings")
+    add.add_argument("--output", type=Path, required=True, metavar="FOLDER", help="the recipe's new folder")
+    add.add_argument(
+        "--convention",
+        choices=("si", "rtb3"),
+        default="si",
+        help="si: a point light's number is W sr-1 nm-1; rtb3: its total power, as it was",
+    )
+    add.add_argument(
+        "--data",
+        type=Path,
+        nargs="+",
+        action="extend",
+        default=[],
+        metavar="FOLDER",
+        help="where to look for files that are not beside the others",
+    )
+    add.set_defaults(verb=verbs.import_files)
+
+
+def _add_montage(montage: argparse.ArgumentParser) -> None:
+    _add_folder(montage)
+    montage.add_argument("--output", type=Path, metavar="FILE.png", help="else images/RENDERER/NAME.png")
+    montage.set_defaults(verb=verbs.montage)
+
+
+def _add_folder(parser: argparse.ArgumentParser) -> None:
+    parser.add_argument("folder", type=Path, metavar="FOLDER", help="of the recipe")
+    parser.add_argument("--renderer", metavar="NAME", help="instead of the recipe's own")
+
+
+def _names(text: str) -> list[str]:
+    return [name for name in text.split(",") if name]
+
+
+def _positive(text: str) -> int:
+    if not re.fullmatch(r"[0-9]+", text) or int(text) < 1:
+        raise argparse.ArgumentTypeError(f"{text} is no whole number from 1")
+    return int(text)
+
+
+def _size(text: str) -> tuple[int, int]:
+    width, _, height = text.partition("x")
+    try:
+        return _positive(width), _positive(height)
+    except argparse.ArgumentTypeError as error:
+        raise argparse.ArgumentTypeError(f"{text} is no size like 320x240") from error
+
+
+if __name__ == "__main__":
+    sys.exit(main())

@@ -1,0 +1,194 @@
+"""A recipe's conditions become renderings: what is done is found, the rest is shared among workers."""
+
+from __future__ import annotations
+
+import os
+import time
+from collections.abc import Callable, Iterator, Sequence
+from dataclasses import dataclass, field, replace
+from difflib import get_close_matches
+from pathlib import Path
+
+from . import records
+from .background import Event
+from .conditions import Condition
+from .crew import Crew
+from .errors import RecipeError
+from .files import sweep
+from .keys import Key, key_of, versions_of
+from .locks import locked
+from .recipe import Recipe
+from .recipe_options import section_words
+from .rendering import Rendering, found, render_condition
+from .worker import Task
+
+_ENDS = {"done", "cached", "failed"}
+
+
+def render_recipe(
+    folder: Path | str,
+    *,
+    renderer: str | None = None,
+    conditions: Sequence[str] | None = None,
+    samples: int | None = None,
+    size: tuple[int, int] | None = None,
+    jobs: int | None = None,
+    threads: int = 1,
+    fresh: bool = False,
+    cancelled: Callable[[], bool] = lambda: False,
+) -> Iterator[Event]:
+    """
+    Render the conditions of the recipe in a folder and yield what happens.
+
+    Parameters
+    ----------
+    renderer, samples, size : win over what conditions and recipe.json say; size is (width, height) [pixels]
+    conditions : names of those to render; None: all
+    jobs : workers at once; None: one a processor core
+    threads : processor threads of each worker; with one, results repeat bit for bit
+    fresh : render even what is done
+    cancelled : asked all the time; once it says yes everything stops within a second
+
+    Raises
+    ------
+    RecipeError
+        When the recipe is wrong, before anything is rendered.
+    """
+    width, height = size or (None, None)
+    options = {"renderer": renderer, "samples": samples, "width": width, "height": height}
+    recipe = Recipe.load(folder).overridden(**options)
+    chosen = chosen_conditions(recipe, conditions)
+    with locked(recipe.folder):
+        sweep(recipe.folder)
+        batch = _Batch(recipe, total=len(chosen))
+        for event in _events(recipe, chosen, jobs, threads, fresh, cancelled):
+            batch.note(stamped := batch.stamped(event))
+            yield stamped
+
+
+def chosen_conditions(recipe: Recipe, names: Sequence[str] | None) -> list[Condition]:
+    """Return the conditions of some names, in the table's order; all of them for None."""
+    known = {condition.name: condition for condition in recipe.conditions}
+    for name in names or ():
+        if name not in known:
+            near = get_close_matches(name, known, n=3, cutoff=0.4) or list(known)[:3]
+            raise RecipeError(
+                f"no condition is called {name}, there are {', '.join(near)} ({len(known)} in all)"
+            )
+    return [condition for name, condition in known.items() if names is None or name in names]
+
+
+def _events(
+    recipe: Recipe,
+    chosen: list[Condition],
+    jobs: int | None,
+    threads: int,
+    fresh: bool,
+    cancelled: Callable[[], bool],
+) -> Iterator[Event]:
+    keys = _keys(recipe, chosen)
+    yield Event("started")
+    waiting = []
+    for condition in chosen:
+        if not fresh and (done := found(recipe, condition, keys[condition.name])) is not None:
+            yield _cached(done)
+        else:
+            waiting.append(condition)
+    tasks = [_task(recipe, condition, threads, fresh) for condition in waiting]
+    size = min(len(tasks), jobs or max(1, processor_cores() // threads))
+    yield from Crew(tasks, size).work(cancelled)
+    yield Event("cancelled" if cancelled() else "finished")
+
+
+def _keys(recipe: Recipe, chosen: list[Condition]) -> dict[str, Key]:
+    """Return every condition's key; raise the first problem before anything is rendered."""
+    keys, problems = {}, {}
+    for condition in chosen:
+        try:
+            keys[condition.name] = key_of(recipe, condition)
+        except RecipeError as error:
+            problems.setdefault(str(error), error)
+    if problems:
+        first, *others = problems.values()
+        more = f" (and {len(others)} more, see check)" if others else ""
+        raise RecipeError(first.message + more, first.file, first.line) from first
+    return keys
+
+
+def _cached(done: Rendering) -> Event:
+    warnings = tuple(done.record.get("warnings", ()))
+    return Event("cached", condition=done.condition, fraction=1.0, file=str(done.file), warnings=warnings)
+
+
+def _task(recipe: Recipe, condition: Condition, threads: int, fresh: bool) -> Task:
+    return Task(str(recipe.folder), condition.name, dict(recipe.overrides), threads, fresh)
+
+
+def processor_cores() -> int:
+    """Return how many processor cores this process may use."""
+    if hasattr(os, "sched_getaffinity"):
+        return len(os.sched_getaffinity(0))
+    return os.cpu_count() or 1
+
+
+@dataclass
+class _Batch:
+    """How far a batch is, and its log."""
+
+    recipe: Recipe
+    total: int
+    finished: int = 0
+    _rendered: int = 0
+    _fractions: dict[str, float] = field(default_factory=dict)
+    _began: float = field(default_factory=time.monotonic)
+
+    def stamped(self, event: Event) -> Event:
+        """Return an event with the batch's totals and the expected time to its end."""
+        if event.kind in _ENDS:
+            self.finished += 1
+            self._rendered += event.kind != "cached"
+            self._fractions.pop(event.condition, None)
+        elif event.condition:
+            self._fractions[event.condition] = event.fraction
+        renderer = ""
+        if event.condition:
+            renderer = self.recipe.options_of(self.recipe.conditions[event.condition]).renderer
+        return replace(
+            event, renderer=renderer, finished=self.finished, total=self.total, remaining=self._remaining()
+        )
+
+    def _remaining(self) -> float | None:
+        under_way = sum(self._fractions.values())
+        work = self._rendered + under_way
+        left = self.total - self.finished - under_way
+        if left <= 0:
+            return 0.0
+        return round((time.monotonic() - self._began) * left / work, 1) if work > 0 else None
+
+    def note(self, event: Event) -> None:
+        """Write an event of note into the recipe's log."""
+        said = {
+            name: value
+            for name in ("condition", "renderer", "message", "details", "seconds", "file")
+            if (value := getattr(event, name))
+        }
+        if event.kind in {"started", "finished", "cancelled"} and not event.condition:
+            said |= {"finished": event.finished, "total": event.total, **self._circumstances(event)}
+        elif event.kind not in {"done", "failed"} and not event.message:
+            return
+        records.note(self.recipe.folder, event.kind, **said)
+
+    def _circumstances(self, event: Event) -> dict:
+        if event.kind != "started":
+            return {}
+        name = self.recipe.overrides.get("renderer", self.recipe.options.renderer)
+        return {
+            "library version": records.library_version(),
+            "renderer": name,
+            **versions_of(name),
+            "options": section_words(self.recipe.options) | dict(self.recipe.overrides),
+            "process": os.getpid(),
+        }
+
+
+__all__ = ["chosen_conditions", "render_condition", "render_recipe"]

@@ -1,0 +1,165 @@
+"""What each verb of the command line does; __main__.py reads the words."""
+
+from __future__ import annotations
+
+import json
+import signal
+import sys
+import threading
+from argparse import Namespace
+from collections.abc import Iterable, Iterator
+from dataclasses import replace
+from pathlib import Path
+
+from . import renderers
+from .background import Event
+from .batch import render_recipe
+from .lifeline import watch_parent
+from .montage import make_montage, write_png
+from .old_recipes import import_recipe
+from .progress import ProgressBar
+from .recipe import Recipe
+from .recipe_problems import findings
+from .spectral_image import SpectralImage
+
+FAILED, WRONG, CANCELLED = 1, 2, 130
+
+
+def render(said: Namespace) -> int:
+    """Render a recipe, showing progress, and make its montage."""
+    stopped = _asked_to_stop()
+    events = render_recipe(
+        said.folder,
+        renderer=said.renderer,
+        conditions=said.conditions,
+        samples=said.samples,
+        size=said.size,
+        jobs=said.jobs,
+        threads=said.threads,
+        fresh=said.fresh,
+        cancelled=stopped.is_set,
+    )
+    events = _with_montage(Recipe.load(said.folder).overridden(renderer=said.renderer), events)
+    if said.json:
+        return _status(_told(events))
+    with ProgressBar() as bar:
+        return _status(bar.shown(events))
+
+
+def check(said: Namespace) -> int:
+    """Say everything that is wrong with a recipe, and what its numbers mean."""
+    recipe = Recipe.load(said.folder).overridden(renderer=said.renderer)
+    found = findings(recipe)
+    for finding in found:
+        if said.json:
+            print(json.dumps({"problem": finding.is_problem, "sentence": finding.sentence}))
+        else:
+            print(finding.sentence, file=sys.stderr if finding.is_problem else sys.stdout)
+    if not said.json:
+        print(_meaning(recipe))
+    return WRONG if any(finding.is_problem for finding in found) else 0
+
+
+def import_files(said: Namespace) -> int:
+    """Make a recipe folder of old files."""
+    recipe, warnings = import_recipe(
+        said.parent, said.conditions, said.mappings, said.output, units=said.convention, data=said.data
+    )
+    for sentence in warnings:
+        print(sentence, file=sys.stderr)
+    print(f"{recipe.name}: {len(recipe.conditions)} conditions in {recipe.folder}")
+    return 0
+
+
+def montage(said: Namespace) -> int:
+    """Make one picture of the renderings that are there."""
+    recipe = Recipe.load(said.folder).overridden(renderer=said.renderer)
+    made = list(make_montages(recipe, said.output))
+    if not made:
+        print(f"{said.folder} holds no renderings yet, render it first", file=sys.stderr)
+        return FAILED
+    for file in made:
+        print(file)
+    return 0
+
+
+def renderers_installed(said: Namespace) -> int:
+    """Say which renderers are here, in which version, and why not."""
+    for name in renderers.names():
+        version, reason = renderers.find(name).version()
+        if said.json:
+            print(json.dumps({"renderer": name, "version": version, "reason": reason}))
+        else:
+            print(f"{name:<10} {version or 'missing: ' + reason}")
+    return 0
+
+
+def make_montages(recipe: Recipe, output: Path | None = None) -> Iterator[Path]:
+    """Write one picture for each renderer that a recipe's conditions are rendered by."""
+    cubes: dict[str, list[Path]] = {}
+    for condition in recipe.conditions:
+        if (file := recipe.rendering_file(condition)).is_file():
+            cubes.setdefault(recipe.options_of(condition).renderer, []).append(file)
+    for renderer, files in cubes.items():
+        target = output or recipe.montage_file(renderer)
+        # One cube after the other: a family of a thousand need not fit into memory.
+        write_png(target, make_montage(map(SpectralImage.load, files), recipe.montage))
+        yield target
+
+
+def _with_montage(recipe: Recipe, events: Iterable[Event]) -> Iterator[Event]:
+    for event in events:
+        if event.kind == "finished":
+            made = [str(file) for file in make_montages(recipe)]
+            event = replace(event, file=made[0] if made else "")
+        yield event
+
+
+def _told(events: Iterable[Event]) -> Iterator[Event]:
+    for event in events:
+        print(event.to_json(), flush=True)
+        yield event
+
+
+def _status(events: Iterable[Event]) -> int:
+    """Return the exit status of a batch: wrong when nothing could be rendered because of the recipe."""
+    faults, good, cancelled = set(), 0, False
+    for event in events:
+        good += event.kind in {"done", "cached"}
+        faults |= {event.fault} if event.kind == "failed" else set()
+        cancelled |= event.kind == "cancelled" and not event.condition
+    if cancelled:
+        return CANCELLED
+    if not faults:
+        return 0
+    return WRONG if faults == {"recipe"} and not good else FAILED
+
+
+def _asked_to_stop() -> threading.Event:
+    """Return a flag that Ctrl-C, a termination signal or the end of our parent raises."""
+    flag = threading.Event()
+
+    def ask(*_) -> None:
+        flag.set()
+        signal.signal(signal.SIGINT, signal.default_int_handler)  # a second Ctrl-C does not wait
+
+    signal.signal(signal.SIGINT, ask)
+    signal.signal(signal.SIGTERM, ask)
+    watch_parent(None, flag.set, signal.SIGTERM)
+    return flag
+
+
+def _meaning(recipe: Recipe) -> str:
+    units = {
+        "si": "a point light's numbers are W sr-1 nm-1",
+        "rtb3": "light spectra are total power, every radiance is multiplied by 1/(4 pi)",
+    }[recipe.conventions.units]
+    hand = {
+        "blender": "pictures show what Blender's camera shows",
+        "rtb3": "pictures are mirrored unless a mapping flips the camera, as in RenderToolbox3",
+    }[recipe.conventions.handedness]
+    count = len(recipe.conditions)
+    return (
+        f"{recipe.name}: {count} condition{'s' * (count != 1)}; units {recipe.conventions.units}: {units}; "
+        f"handedness {recipe.conventions.handedness}: {hand}; band values: {recipe.options.band_kind}"
+    )

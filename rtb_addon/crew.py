@@ -1,0 +1,93 @@
+"""The workers of a batch: who renders what, and what happens when one dies."""
+
+from __future__ import annotations
+
+import queue
+import signal
+from collections import deque
+from collections.abc import Callable, Iterable, Iterator
+from contextlib import suppress
+
+from .background import Event, EventStream, close_input, send, start_child, stop_all
+from .worker import Task
+
+GRACE = 0.4  # [s] that workers have to stop
+INTERVAL = 0.05  # [s] between two looks at whether somebody wants to stop
+
+
+class Crew:
+    """
+    Workers that share a list of tasks.
+
+    A worker that dies has its task tried once more by a new one; then that task has failed and the
+    others go on.
+
+    Parameters
+    ----------
+    tasks : what to render
+    size : how many workers at once, at most
+    """
+
+    def __init__(self, tasks: Iterable[Task], size: int) -> None:
+        self._waiting = deque(tasks)
+        self._size = size
+        self._at_work: dict[EventStream, Task | None] = {}
+        self._died: set[str] = set()
+        self._inbox: queue.SimpleQueue[tuple[EventStream, Event | None]] = queue.SimpleQueue()
+
+    def work(self, cancelled: Callable[[], bool]) -> Iterator[Event]:
+        """Yield what happens until all is done or somebody cancels; then no worker is left."""
+        try:
+            yield from self._hire()
+            while self._at_work and not cancelled():
+                with suppress(queue.Empty):
+                    yield from self._heard(*self._inbox.get(timeout=INTERVAL))
+        finally:
+            stop_all([stream.process for stream in self._at_work], GRACE)
+
+    def _hire(self) -> Iterator[Event]:
+        while self._waiting and len(self._at_work) < self._size:
+            threads = self._waiting[0].threads
+            worker = EventStream(start_child([], "rtb_addon.worker", threads), self._inbox)
+            yield from self._give_task(worker)
+
+    def _give_task(self, worker: EventStream) -> Iterator[Event]:
+        """Give a worker its next task, or the evening off."""
+        task = self._waiting.popleft() if self._waiting else None
+        self._at_work[worker] = task
+        if task is None:
+            close_input(worker.process)
+        elif send(worker.process, task.to_json()):  # where it cannot hear, its end will be heard
+            yield Event("started", condition=task.condition)
+
+    def _heard(self, worker: EventStream, event: Event | None) -> Iterator[Event]:
+        if event is None:
+            yield from self._bury(worker)
+            yield from self._hire()
+            return
+        yield event
+        if event.kind != "progress":
+            yield from self._give_task(worker)
+
+    def _bury(self, worker: EventStream) -> Iterator[Event]:
+        task = self._at_work.pop(worker)
+        worker.process.wait()
+        if task is None:
+            return
+        how = _cause_of_death(worker)
+        if task.condition in self._died:
+            message = f"its worker died twice, {how}"
+            yield Event("failed", condition=task.condition, message=message, fault="rendering")
+        else:
+            self._died.add(task.condition)
+            self._waiting.appendleft(task)
+            message = f"its worker died, {how}; it is tried once more"
+            yield Event("progress", condition=task.condition, message=message)
+
+
+def _cause_of_death(worker: EventStream) -> str:
+    """Return how a worker ended and its last words, for one sentence."""
+    code = worker.process.returncode
+    how = f"killed by {signal.Signals(-code).name}" if code < 0 else f"with exit status {code}"
+    words = worker.last_words().splitlines()
+    return f"{how}, saying: {words[-1][:300]}" if words else how

@@ -1,0 +1,140 @@
+"""
+A condition's key: a digest of everything that its rendering comes from.
+
+Same key, same rendering. No path of this machine and no time goes into it.
+"""
+
+from __future__ import annotations
+
+import dataclasses
+import hashlib
+import json
+import re
+from collections.abc import Mapping
+from contextlib import suppress
+from functools import cache
+from html import unescape
+from pathlib import Path
+from typing import Any, NamedTuple
+
+import numpy as np
+
+from . import renderers
+from .conditions import Condition
+from .errors import RecipeError
+from .recipe import Recipe
+from .recipe_options import section_words
+from .recipe_scene import adjustments_of
+from .scene.adjustments import Adjustments
+
+# Raised when the way from a folder to a RenderScene changes what comes out.
+ENGINE = 1
+# Where something was said does not change what was said.
+_PLACES = {"file", "line"}
+_TEXTURE = re.compile(rb"<(?:\w+:)?init_from[^>]*>\s*([^<]+?)\s*<")
+
+
+class Key(NamedTuple):
+    """
+    A condition's key, and what was found on the way to it.
+
+    Parameters
+    ----------
+    digest : 64 hexadecimal digits
+    adjustments : the mappings that apply, filled in
+    versions : of the renderer and of our translation for it
+    files : name in the recipe -> digest of the file's bytes
+    applied : the mappings that apply, as a record shows them
+    """
+
+    digest: str
+    adjustments: Adjustments
+    versions: Mapping[str, Any]
+    files: Mapping[str, str]
+    applied: Any
+
+
+def key_of(recipe: Recipe, condition: Condition) -> Key:
+    """Return a condition's key; raise what is wrong with its row, its mappings or its renderer."""
+    options = recipe.options_of(condition)
+    files: dict[str, str] = {}
+
+    def find_file(name: str) -> Path | None:
+        if (file := recipe.find_file(name)) is not None:
+            files[name] = _digest_of(file)
+        return file
+
+    adjustments = adjustments_of(recipe, condition, find_file)
+    parent = recipe.parent_file(condition)
+    for name in _texture_names(*_state_of(parent)):
+        with suppress(RecipeError):  # whether it is needed is for resolving to say
+            find_file(name)
+    versions = versions_of(options.renderer)
+    applied = _plain(adjustments, str(recipe.folder))
+    inputs = {
+        "engine": ENGINE,
+        "parent": _digest_of(parent),
+        "row": dict(condition.cells),
+        "mappings": applied,
+        "files": files,
+        "options": section_words(options),
+        "conventions": section_words(recipe.conventions),
+        **versions,
+    }
+    text = json.dumps(inputs, sort_keys=True)
+    return Key(hashlib.sha256(text.encode()).hexdigest(), adjustments, versions, files, applied)
+
+
+def versions_of(name: str) -> dict[str, Any]:
+    """Return a renderer's version and our translation's for it; one sentence when it is not installed."""
+    renderer = renderers.find(name)
+    installed = renderer.version()
+    if installed.version is None:
+        raise RecipeError(f"the renderer {name} cannot be used here: {installed.reason}")
+    return {"renderer version": installed.version, "translation": renderer.translation}
+
+
+def _plain(value: Any, folder: str) -> Any:
+    """Return a value as JSON can write it, the same wherever the folder lies."""
+    if dataclasses.is_dataclass(value) and not isinstance(value, type):
+        value = {item.name: getattr(value, item.name) for item in dataclasses.fields(value)}
+    elif isinstance(value, tuple) and hasattr(value, "_asdict"):
+        value = value._asdict()
+    if isinstance(value, Mapping):
+        return {str(name): _plain(each, folder) for name, each in value.items() if name not in _PLACES}
+    if isinstance(value, list | tuple):
+        return [_plain(each, folder) for each in value]
+    if isinstance(value, np.ndarray):
+        return value.tolist()
+    if isinstance(value, str | Path):
+        return str(value).replace(folder, "")
+    return value
+
+
+def _digest_of(file: Path) -> str:
+    return _digest(*_state_of(file))
+
+
+def _state_of(file: Path) -> tuple[Path, int, int]:
+    try:
+        state = file.stat()
+    except OSError as error:
+        raise RecipeError(f"cannot read {file}: {error.strerror}") from error
+    return file, state.st_size, state.st_mtime_ns
+
+
+@cache
+def _digest(file: Path, size: int, time: int) -> str:
+    """Return the digest of a file's bytes; size and time only tell when to look again."""
+    try:
+        with file.open("rb") as content:
+            return hashlib.file_digest(content, "sha256").hexdigest()
+    except OSError as error:
+        raise RecipeError(f"cannot read {file}: {error.strerror}") from error
+
+
+@cache
+def _texture_names(file: Path, size: int, time: int) -> list[str]:
+    """Return the files that a parent scene's image library names."""
+    found = _TEXTURE.findall(file.read_bytes())
+    return sorted({unescape(name.decode(errors="replace")) for name in found})

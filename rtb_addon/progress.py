@@ -1,0 +1,91 @@
+"""A batch as a person at a terminal sees it."""
+
+from __future__ import annotations
+
+import sys
+from collections.abc import Iterable, Iterator
+from pathlib import Path
+from types import TracebackType
+
+from .background import Event
+
+
+class ProgressBar:
+    """A bar of conditions with the time that is left; at the end, where things are."""
+
+    def __enter__(self) -> ProgressBar:
+        from tqdm import tqdm
+
+        self._bar = tqdm(
+            unit="condition",
+            bar_format="{l_bar}{bar}| {n:.1f}/{total} conditions{postfix}",
+            mininterval=0.1 if sys.stderr.isatty() else 5.0,
+            file=sys.stderr,
+        )
+        self._fractions: dict[str, float] = {}
+        self._failed: dict[str, list[str]] = {}
+        self._counts = dict.fromkeys(("done", "cached", "failed"), 0)
+        self._warnings: dict[str, None] = {}
+        self._folders: dict[str, None] = {}
+        return self
+
+    def __exit__(
+        self, kind: type[BaseException] | None, error: BaseException | None, trace: TracebackType | None
+    ) -> None:
+        self._bar.close()
+
+    def shown(self, events: Iterable[Event]) -> Iterator[Event]:
+        """Show events while they pass."""
+        for event in events:
+            self._show(event)
+            yield event
+
+    def _show(self, event: Event) -> None:
+        if event.kind in self._counts:
+            self._count(event)
+        elif event.condition:
+            self._fractions[event.condition] = event.fraction
+        self._warnings |= dict.fromkeys(event.warnings)
+        if event.kind == "progress" and event.message:
+            self._bar.write(f"{event.condition}: {event.message}", file=sys.stderr)
+        self._bar.total = event.total
+        self._bar.n = event.finished + sum(self._fractions.values())
+        left = "" if event.remaining is None else f", {_clock(event.remaining)} left"
+        self._bar.set_postfix_str(left, refresh=False)
+        self._bar.update(0)
+        if not event.condition and event.kind in {"finished", "cancelled"}:
+            self._bar.refresh()
+            self._sum_up(event)
+
+    def _count(self, event: Event) -> None:
+        self._counts[event.kind] += 1
+        self._fractions.pop(event.condition, None)
+        if event.kind == "failed":
+            self._failed.setdefault(event.message, []).append(event.condition)
+        else:
+            self._folders[str(Path(event.file).parent)] = None
+
+    def _sum_up(self, event: Event) -> None:
+        self._bar.close()
+        for sentence in self._warnings:
+            print(f"warning: {sentence}", file=sys.stderr)
+        for sentence, names in self._failed.items():
+            print(f"{sentence} ({_some(names)})", file=sys.stderr)
+        done, cached, failed = self._counts.values()
+        print(f"{done} rendered, {cached} found done, {failed} failed", end="")
+        print(f", {event.total - event.finished} not begun or stopped" * (event.kind == "cancelled"))
+        for folder in self._folders:
+            print(f"radiance cubes: {folder}")
+        if event.file:
+            print(f"montage: {event.file}")
+
+
+def _clock(seconds: float) -> str:
+    minutes, rest = divmod(round(seconds), 60)
+    hours, minutes = divmod(minutes, 60)
+    return f"{hours}:{minutes:02}:{rest:02}" if hours else f"{minutes}:{rest:02}"
+
+
+def _some(names: list[str]) -> str:
+    more = f" and {len(names) - 3} more" if len(names) > 3 else ""
+    return ", ".join(names[:3]) + more

@@ -1,0 +1,116 @@
+"""One condition: its rendering found done, or made."""
+
+from __future__ import annotations
+
+import os
+import time
+from collections.abc import Mapping
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Any
+
+from . import records, renderers
+from .conditions import Condition
+from .errors import RecipeError
+from .files import temporary_prefix
+from .keys import Key, key_of
+from .recipe import Recipe
+from .recipe_scene import resolve_condition, unsupported
+from .renderers.interface import RenderOptions, Report
+from .spectral_image import SpectralImage
+
+SCRATCH = ".unfinished"  # where cubes are written before they take their place
+
+
+@dataclass(frozen=True)
+class Rendering:
+    """
+    A condition's radiance cube on disk.
+
+    Parameters
+    ----------
+    condition : its name
+    file : the cube, float32 OpenEXR [W sr-1 m-2 nm-1]
+    record : how it was made
+    new : whether it was rendered now, rather than found done
+    """
+
+    condition: str
+    file: Path
+    record: Mapping[str, Any]
+    new: bool
+
+    @property
+    def image(self) -> SpectralImage:
+        """The cube's content."""
+        return SpectralImage.load(self.file)
+
+
+def render_condition(
+    recipe: Recipe | Path, name: str, report: Report, *, threads: int = 1, fresh: bool = False
+) -> Rendering:
+    """
+    Render one condition of a recipe, or find it done; safe to do twice, or in two processes.
+
+    Parameters
+    ----------
+    recipe : a recipe, or its folder
+    report : called between passes with the fraction done; may raise Cancelled
+    threads : processor threads to use
+    fresh : render even what is done
+    """
+    recipe = recipe if isinstance(recipe, Recipe) else Recipe.load(recipe)
+    condition = recipe.conditions[name]
+    key = key_of(recipe, condition)
+    if not fresh and (done := found(recipe, condition, key)) is not None:
+        return done
+    began = time.monotonic()
+    resolved = resolve_condition(recipe, condition, key.adjustments)
+    options = recipe.options_of(condition)
+    if missing := unsupported(options.renderer, resolved.scene):
+        raise RecipeError(f"{options.renderer} knows no {' and no '.join(missing)}, see check")
+    renderer = renderers.find(options.renderer)
+    folder = recipe.scenes_folder / options.renderer
+    native = renderer.translate(resolved.scene, resolved.extras, folder, name)
+    image = renderer.render(native, RenderOptions(threads), report).scaled(recipe.conventions.factor)
+    seconds = time.monotonic() - began
+    return _saved(
+        image, recipe, condition, records.record(recipe, condition, key, resolved.warnings, seconds)
+    )
+
+
+def found(recipe: Recipe, condition: Condition, key: Key) -> Rendering | None:
+    """Return the rendering of a key if it is there and whole."""
+    file = recipe.rendering_file(condition)
+    if not file.is_file() or records.key_in(file) != key.digest:
+        return None
+    return Rendering(condition.name, file, records.read(recipe.record_file(condition)), False)
+
+
+def _saved(image: SpectralImage, recipe: Recipe, condition: Condition, record: dict[str, Any]) -> Rendering:
+    """
+    Put a cube and its record into the folder.
+
+    The cube is written outside renderings/ and moved in, its record goes first: whatever moment a
+    process is killed in, a cube is there whole with its record, or it is not there.
+    """
+    file = recipe.rendering_file(condition)
+    aside = _scratch_folder(recipe.folder, file.parent) / (temporary_prefix(os.getpid()) + file.name)
+    try:
+        image.with_attributes(records.attributes(record)).save(aside)
+        records.write(recipe.record_file(condition), {**record, "factor": image.factor})
+        aside.replace(file)
+    except OSError as error:
+        raise RecipeError(f"cannot write {file}: {error.strerror}") from error
+    finally:
+        aside.unlink(missing_ok=True)
+    return Rendering(condition.name, file, record, True)
+
+
+def _scratch_folder(recipe: Path, target: Path) -> Path:
+    """Return a folder of unfinished cubes on the disk of the finished ones."""
+    target.mkdir(parents=True, exist_ok=True)
+    same_disk = target.stat().st_dev == recipe.stat().st_dev
+    folder = (recipe if same_disk else target) / SCRATCH
+    folder.mkdir(exist_ok=True)
+    return folder
