@@ -2,6 +2,9 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterable, Iterator
+from contextlib import contextmanager
+from difflib import get_close_matches
 from pathlib import Path
 
 
@@ -33,3 +36,24 @@ class RenderingError(Exception):
 
 class Cancelled(Exception):
     """Somebody asked to stop."""
+
+
+@contextmanager
+def at(file: str | Path | None, line: int | None = None) -> Iterator[None]:
+    """Say where something is wrong, for ValueErrors and RecipeErrors that do not know it themselves."""
+    try:
+        yield
+    except RecipeError as error:
+        if error.file is not None:
+            raise
+        raise RecipeError(error.message, file, line) from error
+    except ValueError as error:
+        raise RecipeError(str(error), file, line) from error
+
+
+def choices(word: str, known: Iterable[str], limit: int = 12) -> str:
+    """Return what could stand in a word's place, the nearest first."""
+    names = {name.lower(): name for name in sorted(known)}
+    near = [names[each] for each in get_close_matches(word.lower(), names, n=3)]
+    listed = [*near, *(name for name in names.values() if name not in near)]
+    return ", ".join(listed[:limit]) + (" ..." if len(listed) > limit else "") if listed else "nothing"
