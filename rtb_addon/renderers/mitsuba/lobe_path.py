@@ -1,0 +1,129 @@
+"""
+The lobe path: one path through an rgb scene of one-hot colours carries every band.
+
+Mitsuba computes coefficients that do not depend on wavelength (see one_hot.py); the spectra come from tables,
+by the row of the material or emitter that a path meets. Nothing that a path does depends on the spectra, so
+other spectra follow the same paths, in the same kernel. Drjit writes one kernel for the whole loop.
+
+This module is imported only by what renders with Mitsuba, after its variant is set.
+"""
+
+from __future__ import annotations
+
+import drjit as dr
+import mitsuba as mi
+
+from .tables import Tables
+
+
+@dr.syntax
+def path_radiance(scene: mi.Scene, tables: Tables, sampler: mi.Sampler, ray, depth) -> list:
+    """
+    Follow paths and return their radiance, a list of one mi.Float for each band of the tables.
+
+    Parameters
+    ----------
+    sampler : Mitsuba's, seeded, one sequence a path
+    ray : where the paths begin
+    depth : longest path in Mitsuba's counting, a mi.UInt32 in memory
+    """
+    context = mi.BSDFContext()
+    radiance = [mi.Float(0) for _ in range(tables.padded_bands)]
+    # The throughput is the product of these two: each band's own part, and what all bands share.
+    spectral = [mi.Float(1) for _ in range(tables.padded_bands)]
+    scalar = mi.Float(1)
+    bounce = mi.UInt32(1)
+    active = mi.Bool(True)
+    before = dr.zeros(mi.SurfaceInteraction3f)
+    before_pdf = mi.Float(1)
+    before_delta = mi.Bool(True)
+
+    while active:
+        si = scene.ray_intersect(ray, mi.RayFlags.All, bounce == 1, active)
+
+        # What the surface or the sky emits, weighed against having been found by light sampling.
+        emitter = si.emitter(scene)
+        seen = mi.DirectionSample3f(scene, si, before)
+        light_pdf = scene.pdf_emitter_direction(before, seen, active & ~before_delta)
+        share = dr.select(before_delta, 1, before_pdf / (before_pdf + light_pdf))
+        row = tables.emitter_row(emitter, active)
+        glow = scalar * share * emitter.eval(si, active).x * tables.beam(row, -ray.d, active)
+        shines = active & (glow != 0)
+        radiance = _add(radiance, spectral, tables.emission(row, shines), dr.select(shines, glow, 0))
+        if dr.hint(tables.suns > 0, mode="scalar"):
+            missed = active & ~si.is_valid() & before_delta
+            radiance = _add_suns(tables, ray, radiance, spectral, dr.select(missed, scalar, 0))
+
+        # One light sample, and one sample of the material.
+        going = active & si.is_valid() & (bounce < depth)
+        bsdf = si.bsdf()
+        lit = going & mi.has_flag(bsdf.flags(), mi.BSDFFlags.Smooth)
+        found, weight = sample_light(scene, tables, sampler, si, lit)
+        lit &= found.pdf != 0
+        towards = si.to_local(found.d)
+        value, pdf, turn, onward = bsdf.eval_pdf_sample(
+            context, si, towards, sampler.next_1d(), sampler.next_2d(), going
+        )
+        share = dr.select(found.delta, 1, found.pdf / (found.pdf + pdf))
+        row = tables.emitter_row(found.emitter, lit)
+        glow = dr.select(lit, scalar * share * weight.x * tables.beam(row, -found.d, lit), 0)
+        emission = tables.emission(row, lit)
+        if dr.hint(tables.lobes == 1, mode="scalar"):
+            spectral = _times(spectral, tables.reflectance(bsdf, 0, going))
+            radiance = _add(radiance, spectral, emission, glow * value.x)
+            scalar *= onward.x
+        else:
+            lobes = [tables.reflectance(bsdf, k, going) for k in range(tables.lobes)]
+            radiance = _add(radiance, _times(spectral, _mix(lobes, value)), emission, glow)
+            spectral = _times(spectral, _mix(lobes, onward))
+            scalar = dr.select(dr.any(onward != 0), scalar, 0)
+
+        ray = si.spawn_ray(si.to_world(turn.wo))
+        before = dr.detach(si, True)
+        before_pdf = turn.pdf
+        before_delta = mi.has_flag(turn.sampled_type, mi.BSDFFlags.Delta)
+        bounce += 1
+        active = going & (scalar != 0)
+    return radiance
+
+
+def sample_light(scene, tables, sampler, si, active):
+    """Return a direction to a light that nothing hides, and the emitter's coefficient over its density."""
+    if not tables.suns:
+        return scene.sample_emitter_direction(si, sampler.next_2d(), True, active)
+    found, weight = scene.sample_emitter_direction(si, sampler.next_2d(), False, active)
+    u, v = sampler.next_2d()
+    # A sun is a direction to Mitsuba; ours is anywhere in the disc around it, all places alike.
+    height = u * tables.narrowness(tables.emitter_row(found.emitter, active), active)
+    radius = dr.sqrt(height * (2 - height))
+    sine, cosine = dr.sincos(v * dr.two_pi)
+    aimed = mi.Frame3f(found.d).to_world(mi.Vector3f(radius * cosine, radius * sine, 1 - height))
+    sun = height > 0
+    found.d = dr.select(sun, aimed, found.d)
+    found.p = dr.select(sun, si.p + aimed * found.dist, found.p)
+    hidden = scene.ray_test(si.spawn_ray_to(found.p), active & (found.pdf != 0))
+    return found, dr.select(hidden, 0, weight)
+
+
+def _add_suns(tables, ray, radiance, spectral, weight):
+    """Add the discs of the suns where a ray that saw nothing else meets them."""
+    for index in range(tables.suns):
+        hit, disc = tables.sun(index, ray.d)
+        radiance = _add(radiance, spectral, disc, dr.select(hit, weight, 0))
+    return radiance
+
+
+def _add(radiance, spectral, emission, weight):
+    return [dr.fma(b * e, weight, total) for total, b, e in zip(radiance, spectral, emission, strict=True)]
+
+
+def _times(spectral, factors):
+    return [b * f for b, f in zip(spectral, factors, strict=True)]
+
+
+def _mix(lobes, coefficients):
+    """Return the spectra of up to three lobes, weighed by the three components of a colour."""
+    return [
+        sum((row * coefficients[k] for k, row in enumerate(rows)), mi.Float(0))
+        for rows in zip(*lobes, strict=True)
+    ]

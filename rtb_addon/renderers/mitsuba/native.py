@@ -1,0 +1,98 @@
+"""A native scene read back: the XML and the facts that a renderer needs before it loads it."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from pathlib import Path
+from xml.etree import ElementTree as Xml
+
+import numpy as np
+
+from ...errors import RenderingError
+from ...spectra import BandKind, Bands
+from .spectrum_xml import properties
+
+
+@dataclass(frozen=True, eq=False)
+class Native:
+    """
+    A native scene.
+
+    Parameters
+    ----------
+    path : its XML file
+    root : the whole of it
+    width, height : size of the picture [pixels]
+    bands, band_kind : what its channels are
+    samples, seed : paths per pixel, and where their random numbers begin
+    depth : longest path, in Mitsuba's counting
+    defaults : what stock Mitsuba has no word for, by name
+    """
+
+    path: Path
+    root: Xml.Element
+    width: int
+    height: int
+    bands: Bands
+    band_kind: BandKind
+    samples: int
+    seed: int
+    depth: int
+    defaults: dict[str, str]
+
+    @property
+    def pixel_stretch(self) -> float:
+        """Height of a pixel over its width."""
+        return float(self.defaults.get("pixel_stretch", 1.0))
+
+    def beyond_stock(self) -> list[str]:
+        """Return what only our own path renders right, in the words of the file's comments."""
+        spots = [node.get("id", "") for node in self.root.iter("emitter") if node.get("type") == "spot"]
+        suns = [name[: -len("_angle")] for name in self.defaults if name.endswith("_angle")]
+        said = [f"the edge of the spot {name}" for name in spots] + [f"the disc of {name}" for name in suns]
+        return said + (["pixels that are not square"] if self.pixel_stretch != 1 else [])
+
+
+def read_native(path: Path) -> Native:
+    """Read a native scene as translate() writes it."""
+    root = _parse(path)
+    try:
+        defaults = {node.get("name", ""): node.get("value", "") for node in root.iter("default")}
+        film, sampler = properties(_only(root, "film")), properties(_only(root, "sampler"))
+        return Native(
+            path,
+            root,
+            width=int(film["width"]),
+            height=int(film["height"]),
+            bands=Bands(_numbers(defaults["band_centres"]), _numbers(defaults["band_edges"])),
+            band_kind="centre" if defaults["band_kind"] == "centre" else "averaged",
+            samples=int(sampler["sample_count"]),
+            seed=int(sampler["seed"]),
+            depth=int(properties(_only(root, "integrator"))["max_depth"]),
+            defaults=defaults,
+        )
+    except (KeyError, ValueError) as error:
+        raise RenderingError(
+            f"{path.name} is no native scene of ours ({error}), translate it again"
+        ) from error
+
+
+def _parse(path: Path) -> Xml.Element:
+    try:
+        text = path.read_text("utf-8")
+        if "<!DOCTYPE" in text:
+            raise RenderingError(f"{path.name} declares entities, remove its DOCTYPE")
+        return Xml.fromstring(text)
+    except (OSError, UnicodeDecodeError, Xml.ParseError) as error:
+        raise RenderingError(f"cannot read the native scene {path.name}: {error}") from error
+
+
+def _only(root: Xml.Element, tag: str) -> Xml.Element:
+    nodes = list(root.iter(tag))
+    if len(nodes) != 1:
+        raise ValueError(f"{len(nodes)} elements {tag}, want one")
+    return nodes[0]
+
+
+def _numbers(text: str) -> np.ndarray:
+    return np.array([float(word) for word in text.split()])

@@ -1,0 +1,190 @@
+"""
+A native scene made ready for the lobe path: colours become one-hot, spectra move into tables.
+
+A spectrum of a material becomes the colour (1, 0, 0), its second (0, 1, 0), its third (0, 0, 1): what Mitsuba
+then computes are the coefficients of these spectra, the same for every band and exactly linear. Spectra of
+emitters become (1, 0, 0). No spectrum is left in the scene that Mitsuba loads.
+"""
+
+from __future__ import annotations
+
+import copy
+import math
+from dataclasses import dataclass
+from xml.etree import ElementTree as Xml
+
+import numpy as np
+
+from ...errors import RenderingError
+from ...spectra import FloatArray, Spectrum
+from .lights_xml import ball
+from .native import Native
+from .spectrum_xml import element, parse_spectrum, properties
+
+# Materials that are exactly linear in their spectra, which is what makes the lobe path exact.
+_LINEAR = {"diffuse", "twosided", "blendbsdf"}
+MOST_LOBES = 3
+
+
+@dataclass(frozen=True, eq=False)
+class Emitter:
+    """
+    A row of the emitters' table.
+
+    Parameters
+    ----------
+    spectrum : in the unit of its kind: radiance, radiant intensity or irradiance
+    axis : where a spot or a sun shines
+    outer, inner : cosines at which a spot's beam has faded out and begins to fade; -2 shines everywhere
+    narrowness : 1 - cosine of half the angle of a sun's disc, 0 for everything else
+    """
+
+    spectrum: Spectrum
+    axis: tuple[float, float, float] = (0.0, 0.0, 0.0)
+    outer: float = -2.0
+    inner: float = -2.0
+    narrowness: float = 0.0
+
+
+@dataclass(frozen=True, eq=False)
+class OneHotScene:
+    """
+    What the lobe path renders.
+
+    Parameters
+    ----------
+    xml : a scene for Mitsuba's rgb variants without any spectrum
+    materials : id of a material -> its spectra, one a lobe
+    emitters : id of an emitter -> its row
+    """
+
+    xml: str
+    materials: dict[str, list[Spectrum]]
+    emitters: dict[str, Emitter]
+
+    @property
+    def lobes(self) -> int:
+        """Most spectra that a material has."""
+        return max((len(spectra) for spectra in self.materials.values()), default=1)
+
+
+def one_hot(native: Native) -> OneHotScene:
+    """Return a native scene ready for the lobe path."""
+    root = copy.deepcopy(native.root)
+    for node in [child for child in root if child.tag in ("default", "integrator")]:
+        root.remove(node)
+    _swap_film(root, native)
+    _make_files_absolute(root, native)
+    beams = _swap_spots(root, native)
+    materials = {_id(node): _take_lobes(node) for node in root.iter("bsdf") if node.get("id")}
+    emitters = {_id(node): _take_emitter(node, native, beams) for node in root.iter("emitter")}
+    return OneHotScene(Xml.tostring(root, encoding="unicode"), materials, emitters)
+
+
+def _swap_film(root: Xml.Element, native: Native) -> None:
+    """Give the camera a film of the same size that rgb variants know; nothing is ever written to it."""
+    for sensor in root.iter("sensor"):
+        for film in sensor.findall("film"):
+            sensor.remove(film)
+        film = element("film", "hdrfilm", width=native.width, height=native.height)
+        film.append(element("rfilter", "box"))
+        sensor.append(film)
+
+
+def _make_files_absolute(root: Xml.Element, native: Native) -> None:
+    for node in root.iter("string"):
+        if node.get("name") == "filename":
+            node.set("value", str((native.path.parent / node.get("value", "")).resolve()))
+
+
+def _swap_spots(root: Xml.Element, native: Native) -> dict[str, dict]:
+    """Turn spots into points or spheres and return their beams, which the lobe path applies itself."""
+    beams = {}
+    for node in [child for child in root if child.get("type") == "spot"]:
+        values, place, to_world = properties(node), _id(node), _matrix(node)
+        beams[place] = {
+            "axis": tuple(float(x) for x in to_world[:3, 2]),
+            "outer": math.cos(math.radians(float(values["cutoff_angle"]))),
+            "inner": math.cos(math.radians(float(values["beam_width"]))),
+        }
+        for child in [child for child in node if child.get("name") in ("cutoff_angle", "beam_width")]:
+            node.remove(child)
+        node.set("type", "point")
+        radius = float(native.defaults.get(f"{place}_radius", 0.0))
+        if radius:
+            _round_out(root, node, to_world[:3, 3], radius)
+    return beams
+
+
+def _round_out(root: Xml.Element, spot: Xml.Element, centre: FloatArray, radius: float) -> None:
+    """Put a sphere in the place of a spot: its radiance in a direction is the intensity over pi r^2."""
+    spectrum = next(spot.iter("spectrum"))
+    values = parse_spectrum(spectrum).scaled(1 / (math.pi * radius**2))
+    radiance = element(
+        "spectrum",
+        "irregular",
+        name="radiance",
+        wavelengths=" ".join(map(repr, values.wavelengths.tolist())),
+        values=" ".join(map(repr, values.values.tolist())),
+    )
+    root.remove(spot)
+    root.append(ball(_id(spot), centre, radius, radiance))
+
+
+def _take_lobes(material: Xml.Element) -> list[Spectrum]:
+    for node in material.iter("bsdf"):
+        if node.get("type") not in _LINEAR:
+            raise RenderingError(f"the native scene's {_id(material)} is a {node.get('type')}, make it matte")
+    spectra = _take_spectra(material)
+    if not 1 <= len(spectra) <= MOST_LOBES:
+        raise RenderingError(
+            f"the native scene's {_id(material)} has {len(spectra)} spectra, give it 1 to {MOST_LOBES}"
+        )
+    return spectra
+
+
+def _take_emitter(node: Xml.Element, native: Native, beams: dict[str, dict]) -> Emitter:
+    spectra, place = _take_spectra(node), _id(node)
+    if len(spectra) != 1:
+        raise RenderingError(f"the native scene's {place} has {len(spectra)} spectra, give it one")
+    angle = math.radians(float(native.defaults.get(f"{place}_angle", 0.0)))
+    if not angle:
+        return Emitter(spectra[0], **beams.get(place, {}))
+    # 1 - cos, without the loss of digits that a small disc would suffer.
+    return Emitter(spectra[0], _direction(node), narrowness=2 * math.sin(angle / 4) ** 2)
+
+
+def _take_spectra(node: Xml.Element) -> list[Spectrum]:
+    """Replace each spectrum in an element by a one-hot colour, and return them in order."""
+    taken = []
+    for parent in list(node.iter()):
+        for index, child in enumerate(list(parent)):
+            if child.tag == "rgb" or (child.tag == "spectrum" and not child.get("type")):
+                raise RenderingError(f"the native scene's {_id(node)} has a colour, write a regular spectrum")
+            if child.tag == "spectrum":
+                parent[index] = _colour(child.get("name", ""), len(taken) % MOST_LOBES)
+                taken.append(parse_spectrum(child))
+    return taken
+
+
+def _colour(name: str, lobe: int) -> Xml.Element:
+    node = element("spectrum", "rawconstant", name=name)
+    Xml.SubElement(node, "vector", name="value", value=", ".join("1" if k == lobe else "0" for k in range(3)))
+    return node
+
+
+def _matrix(node: Xml.Element) -> FloatArray:
+    for found in node.iter("matrix"):
+        return np.array([float(word) for word in found.get("value", "").split()]).reshape(4, 4)
+    return np.eye(4)
+
+
+def _direction(node: Xml.Element) -> tuple[float, float, float]:
+    vector = next(child for child in node if child.get("name") == "direction")
+    x, y, z = (float(vector.get(axis, 0)) for axis in "xyz")
+    length = math.sqrt(x * x + y * y + z * z)
+    return x / length, y / length, z / length
+
+
+def _id(node: Xml.Element) -> str:
+    return node.get("id", node.get("type", ""))

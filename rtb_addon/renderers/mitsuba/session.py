@@ -1,0 +1,34 @@
+"""Mitsuba in this process: its variant, its threads, and where its messages go."""
+
+from __future__ import annotations
+
+import sys
+from types import ModuleType
+
+FAST, SLOW = "llvm_ad_rgb", "scalar_spectral"
+
+
+def start(variant: str, threads: int) -> ModuleType:
+    """Return the mitsuba module, ready for a variant; its messages go to stderr, never to stdout."""
+    import drjit as dr
+    import mitsuba as mi
+
+    if variant not in (mi.variant() or ""):
+        mi.set_variant(variant)
+    _send_messages_to_stderr(mi)
+    dr.set_thread_count(threads)
+    return mi
+
+
+def _send_messages_to_stderr(mi: ModuleType) -> None:
+    class Stderr(mi.Appender):
+        def append(self, level, text):
+            print(text, file=sys.stderr)
+
+        def log_progress(self, progress, name, formatted, eta, ptr=None):
+            pass
+
+    logger = mi.logger()
+    logger.set_log_level(mi.LogLevel.Warn)
+    logger.clear_appenders()
+    logger.add_appender(Stderr())

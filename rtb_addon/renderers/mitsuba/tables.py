@@ -1,0 +1,132 @@
+"""
+The spectra of a scene as tables on the device, and which row belongs to which object of Mitsuba.
+
+This module is imported only by what renders with Mitsuba, after its variant is set.
+"""
+
+from __future__ import annotations
+
+import math
+
+import drjit as dr
+import mitsuba as mi
+import numpy as np
+
+from ...spectra import BandKind, Bands, FloatArray
+from .one_hot import Emitter, OneHotScene
+
+# A spectrum's row is fetched four numbers at a time.
+_PACKET = 4
+# An edge without a transition is this steep [1 / difference of cosines].
+_HARD = 1e30
+
+
+class Tables:
+    """
+    Spectra per band, beams and discs, looked up by material and emitter.
+
+    Attributes
+    ----------
+    padded_bands : number of bands, rounded up to whole packets; the rest are zero
+    lobes : spectra per material
+    beams : whether some emitter is a spot
+    suns : number of emitters that are discs in the sky
+    """
+
+    def __init__(self, scene: mi.Scene, source: OneHotScene, bands: Bands, kind: BandKind) -> None:
+        self.padded_bands = -len(bands) % _PACKET + len(bands)
+        self.lobes = source.lobes
+        emitters = list(source.emitters.values())
+        self.beams = any(emitter.outer > -2 for emitter in emitters)
+        self.suns = sum(emitter.narrowness > 0 for emitter in emitters)
+        self._fill(source, emitters, bands, kind)
+        self._bsdf_rows = _rows_by_pointer(
+            {shape.bsdf().id(): mi.BSDFPtr(shape.bsdf()) for shape in scene.shapes()}, source.materials
+        )
+        self._emitter_rows = _rows_by_pointer(
+            {emitter.id(): mi.EmitterPtr(emitter) for emitter in scene.emitters()}, source.emitters
+        )
+
+    def _fill(self, source: OneHotScene, emitters: list[Emitter], bands: Bands, kind: BandKind) -> None:
+        def in_bands(spectrum) -> FloatArray:
+            return np.pad(spectrum.in_bands(bands, kind), (0, self.padded_bands - len(bands)))
+
+        black = np.zeros(self.padded_bands)
+        rows = [
+            [in_bands(spectra[k]) if k < len(spectra) else black for k in range(self.lobes)]
+            for spectra in source.materials.values()
+        ]
+        # Light sampling aims anywhere in a disc: irradiance becomes radiance times solid angle.
+        gains = [2 / (2 - emitter.narrowness) for emitter in emitters]
+        glows = [in_bands(emitter.spectrum) * gain for emitter, gain in zip(emitters, gains, strict=True)]
+        self._reflectances = _table(rows)
+        self._emissions = _table(glows)
+        self._beams = _table([[*e.axis, e.outer, _steepness(e), e.narrowness, 0.0, 0.0] for e in emitters])
+        suns = [(e, glow) for e, glow in zip(emitters, glows, strict=True) if e.narrowness > 0]
+        self._sun_radiances = _table([glow / (2 * math.pi * e.narrowness) for e, glow in suns])
+        self._sun_narrowness = _table([e.narrowness for e, _ in suns])
+        self._sun_directions = _table([np.negative(e.axis) for e, _ in suns])
+
+    def emitter_row(self, emitter, active) -> mi.UInt32:
+        """Return the row of each emitter."""
+        return dr.gather(mi.UInt32, self._emitter_rows, dr.reinterpret_array(mi.UInt32, emitter), active)
+
+    def emission(self, row, active) -> list:
+        """Return an emitter's spectrum, one mi.Float a band."""
+        return self._bands(self._emissions, row, active)
+
+    def reflectance(self, bsdf, lobe: int, active) -> list:
+        """Return the spectrum of a material's lobe, one mi.Float a band."""
+        row = dr.gather(mi.UInt32, self._bsdf_rows, dr.reinterpret_array(mi.UInt32, bsdf), active)
+        return self._bands(self._reflectances, row * self.lobes + lobe, active)
+
+    def beam(self, row, direction, active):
+        """Return how much of a spot's intensity goes in a direction from it: Blender's smooth step."""
+        if not self.beams:
+            return mi.Float(1)
+        first, second = self._beam(row, active)
+        cosine = dr.dot(mi.Vector3f(first.x, first.y, first.z), direction)
+        t = dr.clip((cosine - first.w) * second.x, 0, 1)
+        return t * t * (3 - 2 * t)
+
+    def narrowness(self, row, active) -> mi.Float:
+        """Return 1 - cosine of half the angle of an emitter's disc, 0 for those that are none."""
+        return self._beam(row, active)[1].y
+
+    def sun(self, index: int, direction):
+        """Return whether a direction meets a sun's disc, and the disc's radiance, one mi.Float a band."""
+        place = mi.UInt32(index)
+        towards = dr.gather(mi.Vector3f, self._sun_directions, place)
+        # 1 - cosine of a small angle, from the chord.
+        apart = dr.squared_norm(towards - direction) / 2
+        hit = apart < dr.gather(mi.Float, self._sun_narrowness, place)
+        return hit, self._bands(self._sun_radiances, place, hit)
+
+    def _beam(self, row, active):
+        return [dr.gather(mi.Vector4f, self._beams, row * 2 + half, active) for half in range(2)]
+
+    def _bands(self, table, row, active) -> list:
+        packets = self.padded_bands // _PACKET
+        found = [dr.gather(mi.Vector4f, table, row * packets + k, active) for k in range(packets)]
+        return [packet[k] for packet in found for k in range(_PACKET)]
+
+
+def _steepness(emitter: Emitter) -> float:
+    width = emitter.inner - emitter.outer
+    return min(_HARD, 1 / width) if width > 0 else _HARD
+
+
+def _table(rows) -> mi.Float:
+    """Return numbers in memory, so that no kernel depends on them."""
+    flat = np.asarray(rows, np.float32).ravel()
+    return mi.Float(flat if len(flat) else np.zeros(1, np.float32))
+
+
+def _rows_by_pointer(pointers: dict, ids) -> mi.UInt32:
+    """Return a table from Mitsuba's numbers of objects to our rows."""
+    order = {id: row for row, id in enumerate(ids)}
+    numbers = {id: int(dr.reinterpret_array(mi.UInt32, pointer)[0]) for id, pointer in pointers.items()}
+    rows = np.zeros(max(numbers.values(), default=0) + 1, np.uint32)
+    for id, number in numbers.items():
+        rows[number] = order[id]
+    return mi.UInt32(rows)

@@ -1,0 +1,153 @@
+"""
+A RenderScene as stock Mitsuba 3 XML.
+
+Plain Mitsuba loads and renders it in its spectral variants: path integrator, specfilm with one unit-integral
+band per channel, spectra as tables. What stock Mitsuba has no word for stands in ``<default>`` elements,
+which it reads and ignores, and a comment says so; our own renderer reads them (see swap.py).
+"""
+
+from __future__ import annotations
+
+import os
+from pathlib import Path
+from xml.etree import ElementTree as Xml
+
+import numpy as np
+
+from ...errors import RecipeError
+from ...files import write_bytes
+from ...scene.render_scene import Film, Integrator, Material, Mesh, RenderScene, Shape
+from ...spectra import Spectrum
+from ..interface import Extras
+from ..ply import write_mesh
+from .camera_xml import matrix, sensor
+from .extras import apply_extras
+from .lights_xml import BLACK, environment, light
+from .names import Names
+from .spectrum_xml import element, format_spectrum, range_for, regular
+
+# A film that shows spectra at band centres gets bands as narrow as this around them [nm].
+_NARROW = 1.0
+
+
+def translate(scene: RenderScene, extras: Extras, folder: Path, name: str) -> Path:
+    """Write NAME.xml and the meshes it names into a folder, and return the XML file."""
+    path = folder / f"{name}.xml"
+    root = scene_xml(scene, apply_extras(scene.integrator, extras), folder)
+    Xml.indent(root)
+    write_bytes(path, Xml.tostring(root, encoding="utf-8", xml_declaration=True))
+    return path
+
+
+def scene_xml(scene: RenderScene, integrator: Integrator, folder: Path) -> Xml.Element:
+    """Return the scene as an element; writes the meshes into the folder."""
+    if scene.film.band_kind == "mean":
+        raise RecipeError("Mitsuba renders no bands of kind mean yet, use averaged or centre")
+    if integrator.depth < 1 or integrator.samples < 1:
+        raise RecipeError(
+            f"depth {integrator.depth} and {integrator.samples} samples, give 1 or more of each"
+        )
+    span, names = range_for(scene.film.bands), Names()
+    root = Xml.Element("scene", version="3.0.0")
+    root.extend(_band_defaults(scene.film))
+    root.append(_integrator(integrator))
+    root.append(_black(names))
+    root.extend(sensor(scene.camera, scene.film, _sampler(integrator), _film(scene.film), names))
+    for material in scene.materials.values():
+        root.append(_material(material, names, span))
+    for shape in scene.shapes:
+        if len(shape.mesh.triangles):
+            root.append(_shape(shape, folder, names, span))
+    for lamp in scene.lights:
+        root.extend(light(lamp, names, span))
+    if scene.environment is not None:
+        root.extend(environment(scene.environment, names, span))
+    return root
+
+
+def _band_defaults(film: Film) -> list[Xml.Element]:
+    """Return the bands as our renderer reads them; stock Mitsuba's film follows further down."""
+    facts = {
+        "band_kind": film.band_kind,
+        "band_centres": _words(film.bands.centres),
+        "band_edges": _words(film.bands.edges),
+    }
+    return [Xml.Element("default", name=key, value=value) for key, value in facts.items()]
+
+
+def _integrator(integrator: Integrator) -> Xml.Element:
+    depth = min(integrator.depth, 2) if integrator.kind == "direct" else integrator.depth
+    # Russian roulette would look at the spectra; this depth is never reached.
+    return element("integrator", "path", max_depth=depth, rr_depth=depth + 1)
+
+
+def _sampler(integrator: Integrator) -> Xml.Element:
+    return element("sampler", "multijitter", sample_count=integrator.samples, seed=integrator.seed % 2**31)
+
+
+def _film(film: Film) -> Xml.Element:
+    node = element("film", "specfilm", width=film.width, height=film.height, component_format="float32")
+    node.append(element("rfilter", film.filter))
+    for index, (low, high) in enumerate(_responses(film)):
+        height = repr(1 / (high - low))
+        name = f"b{index:03d}_{film.bands.centres[index]:g}nm".replace(".", "_")
+        node.append(regular(name, (low, high), f"{height}, {height}"))
+    return node
+
+
+def _responses(film: Film) -> list[tuple[float, float]]:
+    """Return where each channel of the stock film begins and ends [nm]."""
+    if film.band_kind == "averaged":
+        return list(zip(film.bands.edges[:-1].tolist(), film.bands.edges[1:].tolist(), strict=True))
+    half = min(_NARROW, float(film.bands.widths.min())) / 2
+    return [(centre - half, centre + half) for centre in film.bands.centres.tolist()]
+
+
+def _black(names: Names) -> Xml.Element:
+    node = element("bsdf", "diffuse", id=names.of("material", BLACK))
+    node.append(element("spectrum", "uniform", name="reflectance", value=0.0))
+    return node
+
+
+def _material(material: Material, names: Names, span: tuple[float, float]) -> Xml.Element:
+    if material.model != "matte":
+        raise RecipeError(f"Mitsuba renders no {material.model} yet, make material {material.id} matte")
+    reflectance = material.parameters["diffuseReflectance"]
+    if not isinstance(reflectance, Spectrum):
+        raise RecipeError(f"Mitsuba renders no textures yet, give material {material.id} a spectrum")
+    if reflectance.values.min() < 0:
+        raise RecipeError(f"material {material.id} has a negative reflectance, give 0 or more")
+    both = element("bsdf", "twosided", id=names.of("material", material.id))
+    inner = element("bsdf", "diffuse")
+    inner.append(format_spectrum("reflectance", reflectance, span))
+    both.append(inner)
+    return both
+
+
+def _shape(shape: Shape, folder: Path, names: Names, span: tuple[float, float]) -> Xml.Element:
+    emits = shape.emission is not None and shape.emission.values.any()
+    mesh, place = _turned(shape.mesh, shape.to_world), names.of("shape", shape.id)
+    file = write_mesh(mesh, folder)
+    # Emission leaves by the triangles' own normals; Mitsuba would take the smooth ones.
+    flat = bool(mesh.normals is None or emits)
+    node = element(
+        "shape", "ply", id=place, filename=Path(os.path.relpath(file, folder)).as_posix(), face_normals=flat
+    )
+    node.append(matrix("to_world", shape.to_world))
+    node.append(Xml.Element("ref", id=names.known("material", shape.material, f"shape {shape.id}")))
+    if emits and shape.emission is not None:
+        emitter = element("emitter", "area", id=names.of("emitter", f"{shape.id}-emission"))
+        emitter.append(format_spectrum("radiance", shape.emission, span))
+        node.append(emitter)
+    return node
+
+
+def _turned(mesh: Mesh, to_world: np.ndarray) -> Mesh:
+    """Return the mesh, wound the other way if its matrix mirrors, so that its normals stay outside."""
+    if np.linalg.det(to_world[:3, :3]) >= 0:
+        return mesh
+    return Mesh(mesh.vertices, np.ascontiguousarray(mesh.triangles[:, ::-1]), mesh.normals, mesh.uvs)
+
+
+def _words(values: np.ndarray) -> str:
+    return " ".join(repr(float(value)) for value in values)
