@@ -1,0 +1,82 @@
+"""Triangles as a Collada geometry holds them: each corner has its own normal and texture coordinate."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, field
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
+from ..spectra import FloatArray
+
+IntArray = NDArray[np.integer]
+
+
+@dataclass(frozen=True, eq=False)
+class Corners:
+    """
+    Something that each corner of each triangle has.
+
+    Parameters
+    ----------
+    values : (values, n) float32 array
+    indices : (triangles, 3) array, of values
+    """
+
+    values: FloatArray
+    indices: IntArray
+
+
+@dataclass(frozen=True, eq=False)
+class Surface:
+    """
+    Triangles of one or several materials.
+
+    Parameters
+    ----------
+    vertices : (vertices, 3) float32 array [scene units]
+    triangles : (triangles, 3) array
+        Indices of vertices, counter-clockwise seen from the side that the normal points to.
+    normals : unit normals of the corners, or None for flat faces
+    uvs : texture coordinates of the corners, V up, or None
+    parts : (triangles,) array, which of the symbols each triangle has
+    symbols : names for the materials, bound where the geometry is used
+    """
+
+    vertices: FloatArray
+    triangles: IntArray
+    normals: Corners | None = None
+    uvs: Corners | None = None
+    parts: IntArray = field(default_factory=lambda: np.zeros(0, np.int32))
+    symbols: tuple[str, ...] = ()
+
+
+def corners(values: ArrayLike, triangles: IntArray) -> Corners:
+    """
+    Return the values of corners, each different one once.
+
+    Parameters
+    ----------
+    values : (vertices, n) array: one per vertex; or (triangles, 3, n): one per corner
+    """
+    given = np.ascontiguousarray(values, np.float32)
+    if given.ndim == 2:
+        return Corners(given, triangles)
+    if given.shape[:2] != triangles.shape:
+        raise ValueError(f"{given.shape[:2]} corners for {triangles.shape} triangles")
+    rows = given.reshape(-1, given.shape[2]) + np.float32(0)  # no -0
+    first, places = _distinct(rows)
+    return Corners(rows[first], places.reshape(triangles.shape))
+
+
+def _distinct(rows: FloatArray) -> tuple[IntArray, IntArray]:
+    """Return the first place of each distinct row, and for each row which one it is."""
+    words = np.ascontiguousarray(rows, np.float32).view(np.uint32).astype(np.uint64)
+    keys = np.zeros(len(rows), np.uint64)
+    for column in words.T:
+        keys = (keys ^ column) * np.uint64(0x9E3779B97F4A7C15)
+        keys ^= keys >> np.uint64(29)
+    _, first, places = np.unique(keys, return_index=True, return_inverse=True)
+    if not np.array_equal(rows[first][places], rows):  # two rows share a key: rare, and slow is good enough
+        _, first, places = np.unique(rows, axis=0, return_index=True, return_inverse=True)
+    return first, places.ravel()
