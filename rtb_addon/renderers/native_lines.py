@@ -89,9 +89,9 @@ def integrator_with(integrator: Integrator, lines: Iterable[NativeLine], rendere
 def _changes(setting: NativeSetting, line: NativeLine) -> dict | None:
     if setting.value is None:
         return _declared(setting)
-    if setting.is_integrator and setting.name.lower() == "maxdepth":
+    if setting.is_integrator and setting.name.lower() in ("maxdepth", "max_depth"):
         return {"depth": _count(setting, line)}
-    if setting.is_sampler and setting.name.lower() == "samplecount":
+    if setting.is_sampler and setting.name.lower() in ("samplecount", "sample_count"):
         return {"samples": _count(setting, line)}
     return None
 

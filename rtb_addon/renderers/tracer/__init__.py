@@ -1,0 +1,57 @@
+"""
+The internal spectral tracer: a path tracer in numpy that carries all bands along every path.
+
+To read it, follow a path from the camera to a light in integrate.py. The other modules are what it
+meets on its way: camera.py, intersect.py (bvh.py where Embree is missing), materials.py, lights.py;
+sampler.py gives the random numbers, directions.py the arithmetic, native.py the file.
+"""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+from ...scene.render_scene import RenderScene
+from ...spectral_image import SpectralImage
+from ..interface import Extras, Installed, RenderOptions, Report
+from . import integrate, native
+
+# Goes up when a picture of the same native scene changes.
+VERSION = "1.0"
+
+
+class Tracer:
+    """The internal tracer, as a renderer like the others; it runs wherever numpy does."""
+
+    name = "tracer"
+    translation = native.VERSION
+
+    def version(self) -> Installed:
+        """Return the tracer's version; it is never missing."""
+        return Installed(VERSION)
+
+    def translate(self, scene: RenderScene, extras: Extras, folder: Path, name: str) -> Path:
+        """Write a scene as folder/NAME.json and its meshes beside it; return that file."""
+        return native.translate(scene, extras, folder, name)
+
+    def render(self, native_file: Path, options: RenderOptions, report: Report) -> SpectralImage:
+        """
+        Render a native scene [W sr-1 m-2 nm-1].
+
+        One thread, whatever the options say: the same file gives the same bits on every run.
+        """
+        scene = native.read(native_file)
+        radiance, kernel = integrate.render(scene, report)
+        attributes = {
+            "renderer": self.name,
+            "rendererVersion": VERSION,
+            "integrator": f"{scene.integrator.kind}, depth {scene.integrator.depth}",
+            "samples": str(scene.integrator.samples),
+            "seed": str(scene.integrator.seed),
+            "rayKernel": kernel,
+        }
+        return SpectralImage(radiance, scene.film.bands, scene.film.band_kind, 1.0, attributes)
+
+
+def renderer() -> Tracer:
+    """Return the internal tracer."""
+    return Tracer()

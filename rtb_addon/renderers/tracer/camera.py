@@ -1,0 +1,33 @@
+"""From a place in the picture to a ray."""
+
+from __future__ import annotations
+
+import numpy as np
+
+from ...scene.render_scene import Camera
+from ...spectra import FloatArray
+from .directions import length
+
+
+def rays(camera: Camera, x: FloatArray, y: FloatArray) -> tuple[FloatArray, FloatArray, FloatArray]:
+    """
+    Return the origins, directions and reach [m] of rays through the picture.
+
+    Rays begin on the near plane and reach to the far one. A mirrored camera needs no care: its
+    matrix mirrors the rays.
+
+    Parameters
+    ----------
+    x, y : (n,) arrays, 0 to 1 from the left and from the top of the picture
+    """
+    left, right, bottom, top = camera.window
+    near, far = camera.clip
+    window = np.stack([left + x * (right - left), top + y * (bottom - top), np.full_like(x, -1.0)], axis=1)
+    if camera.projection == "perspective":
+        starts, ahead = window * near, window
+    else:
+        starts = window * [1, 1, near]
+        ahead = np.broadcast_to([0.0, 0.0, -1.0], window.shape)
+    turn, place = camera.to_world[:3, :3], camera.to_world[:3, 3]
+    stretch = length(ahead)
+    return starts @ turn.T + place, (ahead / stretch[:, None]) @ turn.T, (far - near) * stretch

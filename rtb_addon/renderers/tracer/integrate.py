@@ -1,0 +1,241 @@
+"""
+From the camera to the light: a path tracer over many paths at once.
+
+Arrays have a row per path and, where it matters, a column per band. Paths leave the camera in waves; at
+every surface that they meet they look for a light (next-event estimation), then go on in a
+random direction, where they may find a light as well. Both ways together are weighed by the balance
+heuristic (Veach and Guibas, *Optimally Combining Sampling Techniques*, 1995). No path ends by chance: its
+length is its integrator's depth.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from typing import NamedTuple
+
+import numpy as np
+from numpy.typing import NDArray
+
+from ...errors import RenderingError
+from ...scene.render_scene import Film, IntArray, RenderScene
+from ...spectra import FloatArray
+from ..interface import Report
+from .camera import rays
+from .directions import dot
+from .intersect import Places, Surfaces, best_kernel
+from .kernels import Hits, Kernel
+from .lights import Lights
+from .materials import Materials, lobe, scattered
+from .sampler import Sampler
+
+# Paths in a wave: few enough that its arrays stay in the processor's cache and that
+# cancelling takes no time, enough that numpy's own overhead does not count.
+WAVE = 4096
+
+Pair = tuple[FloatArray, FloatArray]
+
+
+class World(NamedTuple):
+    """A scene, ready to be met by rays."""
+
+    surfaces: Surfaces
+    materials: Materials
+    lights: Lights
+
+    @classmethod
+    def of(cls, scene: RenderScene, kernel: Callable[[FloatArray], Kernel]) -> World:
+        """Return a scene's world, its rays found by a kernel."""
+        materials = Materials(scene.materials.values(), scene.film)
+        surfaces = Surfaces(scene.shapes, materials.numbers, kernel)
+        return cls(surfaces, materials, Lights(scene, surfaces))
+
+    def meet(self, origins: FloatArray, directions: FloatArray, reach: FloatArray | None) -> Hits:
+        """Return what rays meet first, triangles or lights that are solid."""
+        return self.lights.spheres.before(self.surfaces.meet(origins, directions, reach), origins, directions)
+
+    def blocked(self, origins: FloatArray, directions: FloatArray, reach: FloatArray) -> NDArray[np.bool_]:
+        """Return which rays meet anything before their reach."""
+        way = origins, directions, reach
+        return self.surfaces.blocked(*way) | self.lights.spheres.block(*way)
+
+
+class Paths(NamedTuple):
+    """
+    Paths on their way.
+
+    Parameters
+    ----------
+    number : (n,) int array, row of the wave that a path's light belongs to
+    origins, directions : (n, 3) arrays [m]
+    reach : (n,) how far they see [m]; None without end
+    density : (n,) of the direction [sr-1]; infinite where no light could have been chosen instead
+    throughput : (n, bands) float32 array, radiance seen per radiance met
+    """
+
+    number: IntArray
+    origins: FloatArray
+    directions: FloatArray
+    reach: FloatArray | None
+    density: FloatArray
+    throughput: FloatArray
+
+
+def render(
+    scene: RenderScene, report: Report, kernel: Callable[[FloatArray], Kernel] = best_kernel
+) -> tuple[FloatArray, str]:
+    """
+    Return the picture of a scene and the name of the ray kernel.
+
+    The picture is a (height, width, bands) float32 array [W sr-1 m-2 nm-1]. Tiles bound the memory; each
+    is summed in the same order, so the same scene gives the same bits.
+    """
+    report(0.0)
+    world = World.of(scene, kernel)
+    pixels = scene.film.width * scene.film.height
+    picture = np.empty((pixels, len(scene.film.bands)), np.float32)
+    for tile, first in enumerate(range(0, pixels, WAVE)):
+        last = min(first + WAVE, pixels)
+
+        def part(done: float, first: int = first, last: int = last) -> None:
+            report((first + done * (last - first)) / pixels)
+
+        picture[first:last] = _tile(scene, world, tile, np.arange(first, last), part)
+    _check(picture, scene.film)
+    return picture.reshape(scene.film.height, scene.film.width, -1), world.surfaces.kernel.name
+
+
+def _tile(
+    scene: RenderScene, world: World, tile: int, pixels: IntArray, report: Callable[[float], None]
+) -> FloatArray:
+    """Return the (pixels, bands) mean radiance of some pixels, a wave of samples at a time."""
+    depth, samples = _depth(scene), scene.integrator.samples
+    sampler = Sampler(len(pixels), samples, 2 * depth - 1, scene.integrator.seed, tile)
+    together = max(WAVE // len(pixels), 1)
+    total = np.zeros((len(pixels), len(scene.film.bands)))
+    for first in range(0, samples, together):
+        count = min(together, samples - first)
+        draw = _Draw(sampler, len(pixels), first)
+        paths = _from_camera(scene, draw, np.tile(pixels, count))
+        light = follow(world, paths, draw, depth)
+        total += light.reshape(count, len(pixels), -1).sum(axis=0)
+        report((first + count) / samples)
+    return total / samples
+
+
+class _Draw(NamedTuple):
+    """The random numbers of a wave: sample after sample of all pixels of a tile."""
+
+    sampler: Sampler
+    pixels: int
+    first: int
+
+    def pair(self, use: int, number: IntArray) -> Pair:
+        sample, pixel = np.divmod(number, self.pixels)
+        return self.sampler.pair(use, pixel, self.first + sample)
+
+
+def _from_camera(scene: RenderScene, draw: _Draw, pixels: IntArray) -> Paths:
+    """Return paths through random places of pixels: the box filter."""
+    film = scene.film
+    number = np.arange(len(pixels))
+    u, v = draw.pair(0, number)
+    row, column = np.divmod(pixels, film.width)
+    origins, directions, reach = rays(scene.camera, (column + u) / film.width, (row + v) / film.height)
+    throughput = np.ones((len(pixels), len(film.bands)), np.float32)
+    return Paths(number, origins, directions, reach, np.full(len(pixels), np.inf), throughput)
+
+
+def follow(world: World, paths: Paths, draw: _Draw, depth: int) -> FloatArray:
+    """Follow paths to the end and return the (paths, bands) radiance that they found."""
+    found = np.zeros_like(paths.throughput)
+    for step in range(1, depth + 1):
+        hits = world.meet(paths.origins, paths.directions, paths.reach)
+        _add_met(world, paths, hits, found)
+        if step == depth:
+            break
+        paths, hits = _reflected(world, paths, hits)
+        if not len(paths.number):
+            break
+        places = world.surfaces.places(hits, paths.directions)
+        _add_sampled(world, paths, places, draw.pair(2 * step - 1, paths.number), found)
+        paths = _scattered(paths, places, draw.pair(2 * step, paths.number))
+    return found
+
+
+def _add_met(world: World, paths: Paths, hits: Hits, found: FloatArray) -> None:
+    """
+    Add the lights that paths met by themselves.
+
+    The balance heuristic: scattering chose this direction with one density, looking for a light
+    would have with a rival one, so it counts for density / (density + rival).
+    """
+    for rows, row, strength, rival in world.lights.met(hits, paths.origins, paths.directions):
+        if len(rows):
+            _add(world, paths, rows, row, strength / (1 + rival / paths.density[rows]), found)
+
+
+def _add_sampled(world: World, paths: Paths, places: Places, draw: Pair, found: FloatArray) -> None:
+    """
+    Look for a light from every place, and add it where the way is free.
+
+    f cos / density, times the balance heuristic density / (density + rival) where scattering could have
+    met the light as well; the rival density is that of the lobe.
+    """
+    sample = world.lights.sample(places.start, *draw)
+    if sample is None:
+        return
+    reflected = lobe(dot(places.normals, sample.directions))
+    strength = sample.strength * reflected / (sample.density + sample.extended * reflected)
+    rows = np.nonzero((strength > 0) & (dot(places.faces, sample.directions) > 0))[0]
+    rows = rows[~world.blocked(places.start[rows], sample.directions[rows], sample.reach[rows])]
+    _add(world, paths, rows, sample.row[rows], strength[rows], found)
+
+
+def _add(
+    world: World, paths: Paths, rows: IntArray, row: IntArray, strength: FloatArray, found: FloatArray
+) -> None:
+    """Add light to some paths: throughput times spectrum times strength, band by band."""
+    light = paths.throughput[rows]
+    light *= world.lights.spectra[row]
+    light *= strength.astype(np.float32)[:, None]
+    found[paths.number[rows]] += light
+
+
+def _reflected(world: World, paths: Paths, hits: Hits) -> tuple[Paths, Hits]:
+    """Return the paths that met a surface which is not black, its reflectance in their throughput."""
+    rows = np.nonzero(hits.triangle >= 0)[0]
+    material = world.surfaces.material[hits.triangle[rows]]
+    bright = world.materials.reflects[material]
+    rows, material = rows[bright], material[bright]
+    throughput = paths.throughput[rows]
+    throughput *= world.materials.reflectance[material]
+    origins, directions = paths.origins[rows], paths.directions[rows]
+    kept = Paths(paths.number[rows], origins, directions, None, paths.density[rows], throughput)
+    return kept, hits.only(rows)
+
+
+def _scattered(paths: Paths, places: Places, draw: Pair) -> Paths:
+    """Return paths that go on in random directions; those that would go through the surface end."""
+    directions = scattered(places.normals, *draw)
+    rows = np.nonzero(dot(places.faces, directions) > 0)[0]
+    directions = directions[rows]
+    density = lobe(dot(places.normals[rows], directions))
+    return Paths(paths.number[rows], places.start[rows], directions, None, density, paths.throughput[rows])
+
+
+def _depth(scene: RenderScene) -> int:
+    """Return the length of the longest paths; direct light is a path of two."""
+    depth = scene.integrator.depth
+    return min(depth, 2) if scene.integrator.kind == "direct" else depth
+
+
+def _check(picture: FloatArray, film: Film) -> None:
+    """Raise RenderingError for radiance that cannot be."""
+    wrong = np.argwhere(~(picture >= 0) | ~np.isfinite(picture))
+    if len(wrong):
+        pixel, band = wrong[0]
+        row, column = divmod(int(pixel), film.width)
+        raise RenderingError(
+            f"the radiance at row {row}, column {column} is {picture[pixel, band]:g} at"
+            f" {film.bands.centres[band]:g} nm, look for negative or boundless spectra in the scene"
+        )

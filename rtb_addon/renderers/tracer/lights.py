@@ -1,0 +1,159 @@
+"""
+Where light comes from: every light of a scene in one table, chosen by power and sampled by its shape.
+
+A light's spectrum, one row of Lights.spectra, is apart from where and how strongly it shines,
+so that paths do not depend on it but for how often each light is chosen.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Sequence
+from typing import NamedTuple
+
+import numpy as np
+
+from ...scene.render_scene import IntArray, Light, RenderScene
+from ...spectra import FloatArray, Spectrum
+from .directions import dot
+from .intersect import Surfaces
+from .kernels import Hits
+from .lamps import Group, Lamps, Sample, Spheres, Suns, Triangles
+
+
+class Met(NamedTuple):
+    """
+    A light that some rays meet.
+
+    Parameters
+    ----------
+    rows : (m,) int array, which rays
+    row : (m,) int array, the light's row in Lights.spectra
+    strength : (m,) radiance, times that spectrum
+    rival : density [sr-1] with which Lights.sample would have chosen this direction
+    """
+
+    rows: IntArray
+    row: IntArray
+    strength: FloatArray
+    rival: FloatArray | float
+
+
+class Lights:
+    """
+    Everything that shines in a scene.
+
+    Attributes
+    ----------
+    spectra : (rows, bands) float32 array, in the unit of each kind of light; the environment's is last
+    spheres : lights that are solid
+    """
+
+    def __init__(self, scene: RenderScene, surfaces: Surfaces) -> None:
+        emitting = [number for number, shape in enumerate(scene.shapes) if shape.emission is not None]
+        row_of_shape = np.full(len(scene.shapes) + 1, -1, np.int32)
+        row_of_shape[emitting] = np.arange(len(emitting))
+        self._row_of, self._normals = row_of_shape[surfaces.shape], surfaces.normals
+        lamps, spheres, suns = _sorted_out(scene)
+        count = len(emitting)
+        self._triangles = Triangles(surfaces, self._row_of)
+        self._lamps = Lamps(lamps, count)
+        self._spheres = self.spheres = Spheres(spheres, count + len(lamps))
+        self._suns = Suns(suns, count + len(lamps) + len(spheres), surfaces.radius())
+        self._groups: tuple[Group, ...] = (self._triangles, self._lamps, self._spheres, self._suns)
+        self._environment = scene.environment is not None
+        self.spectra = _spectra(scene, [*lamps, *spheres, *suns])
+        self._choose()
+
+    def sample(self, points: FloatArray, u: FloatArray, v: FloatArray) -> Sample | None:
+        """
+        Choose a light for each of (n, 3) points [m] and a direction to it; None where nothing can be chosen.
+
+        Parameters
+        ----------
+        u, v : (n,) arrays in [0, 1)
+        """
+        if not len(self._chance):
+            return None
+        element = np.searchsorted(self._sums[1:], u, side="right").clip(max=len(self._chance) - 1)
+        u = ((u - self._sums[element]) / self._chance[element]).clip(0, 1 - 2.0**-53)
+        sample = Sample.empty(len(points))
+        for first, group in zip(self._first, self._groups, strict=True):
+            rows = np.nonzero((element >= first) & (element < first + len(group.rows)))[0]
+            if len(rows):
+                sample.fill(rows, group.sample(element[rows] - first, points[rows], u[rows], v[rows]))
+        sample.density[:] *= self._chance[element]
+        return sample
+
+    def met(self, hits: Hits, origins: FloatArray, directions: FloatArray) -> Iterator[Met]:
+        """Yield the lights that rays meet, (n, 3) origins [m] and unit directions."""
+        yield self._met_triangles(hits, directions)
+        for sphere in range(len(self._spheres.rows)):
+            yield self._met_sphere(sphere, np.nonzero(hits.triangle == -2 - sphere)[0], origins, directions)
+        escaped = np.nonzero(hits.triangle == -1)[0]
+        for sun in range(len(self._suns.rows)):
+            yield self._met_sun(sun, escaped[self._suns.seen(sun, directions[escaped])])
+        # Scattering samples an even environment as well as anything could, so nothing rivals it.
+        if self._environment:
+            yield Met(escaped, np.full(len(escaped), len(self.spectra) - 1), np.ones(len(escaped)), 0.0)
+
+    def _met_triangles(self, hits: Hits, directions: FloatArray) -> Met:
+        rows = np.nonzero(hits.triangle >= 0)[0] if self._triangles.rows.size else np.zeros(0, int)
+        rows = rows[self._row_of[hits.triangle[rows]] >= 0]
+        triangle = hits.triangle[rows]
+        cosine = -dot(self._normals[triangle], directions[rows])
+        rows, triangle, cosine = rows[cosine > 0], triangle[cosine > 0], cosine[cosine > 0]
+        rival = self._per_area[triangle] * np.asarray(hits.distance[rows], float) ** 2 / cosine
+        return Met(rows, self._row_of[triangle], np.ones(len(rows)), rival)
+
+    def _met_sphere(self, sphere: int, rows: IntArray, origins: FloatArray, directions: FloatArray) -> Met:
+        which = np.full(len(rows), sphere)
+        chance = self._chance[self._first[2] + sphere]
+        rival = chance * self._spheres.density(which, origins[rows])
+        return Met(rows, self._spheres.rows[which], self._spheres.radiance(which, directions[rows]), rival)
+
+    def _met_sun(self, sun: int, rows: IntArray) -> Met:
+        rival = float(self._chance[self._first[3] + sun] * self._suns.densities[sun])
+        row, radiance = self._suns.rows[sun], self._suns.radiance[sun]
+        return Met(rows, np.full(len(rows), row), np.full(len(rows), radiance), rival)
+
+    def _choose(self) -> None:
+        """
+        Fix how often each light is chosen: half the choices by power, half evenly among the lights.
+
+        By power alone, the sun over a wide plain would leave nothing for the lamp in a room. Within
+        a light, its triangles are chosen by area.
+        """
+        rows = np.concatenate([group.rows for group in self._groups])
+        area = np.concatenate([group.powers for group in self._groups])
+        power = area * np.maximum(self.spectra.mean(axis=1, dtype=float)[rows], 0)
+        whole = np.bincount(rows, area, len(self.spectra))[rows]
+        even = area / np.where(whole > 0, whole, 1) / max(len(np.unique(rows)), 1)
+        chance = even + (power / power.sum() if power.sum() > 0 else even)
+        self._chance = chance / chance.sum() if len(rows) else chance
+        self._sums = np.concatenate([[0.0], np.cumsum(self._chance)])
+        self._first = np.cumsum([0, *(len(group.rows) for group in self._groups[:-1])])
+        self._per_area = np.zeros(len(self._row_of))
+        ours = self._chance[: len(self._triangles.rows)]
+        self._per_area[self._triangles.triangle] = ours / self._triangles.area
+
+
+def _sorted_out(scene: RenderScene) -> tuple[list[Light], list[Light], list[Light]]:
+    """Return the lights that are points, those that are spheres, and suns."""
+    suns = [light for light in scene.lights if light.kind == "directional"]
+    beams = [light for light in scene.lights if light.kind != "directional"]
+    points = [light for light in beams if not light.parameters.get("radius")]
+    return points, [light for light in beams if light.parameters.get("radius")], suns
+
+
+def _spectra(scene: RenderScene, lights: Sequence[Light]) -> FloatArray:
+    """Return the (rows, bands) spectra of emitting shapes, of lights and, last, of the environment."""
+    spectra = [shape.emission for shape in scene.shapes if shape.emission is not None]
+    spectra += [_intensity(light) for light in lights]
+    spectra.append(_intensity(scene.environment) if scene.environment else Spectrum.constant(0.0))
+    film = scene.film
+    return np.array([spectrum.in_bands(film.bands, film.band_kind) for spectrum in spectra], np.float32)
+
+
+def _intensity(light: Light) -> Spectrum:
+    value = light.parameters["intensity"]
+    return value if isinstance(value, Spectrum) else Spectrum.constant(float(value))  # type: ignore[arg-type]

@@ -1,0 +1,160 @@
+"""
+The native scene of the tracer: one JSON file that a person can read, and meshes beside it.
+
+It says what a RenderScene says, in the same words; numbers are written so that reading
+gives back the same bits.
+"""
+
+from __future__ import annotations
+
+import json
+from collections.abc import Mapping
+from dataclasses import asdict, replace
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+
+from ...errors import RecipeError, RenderingError
+from ...files import write_text
+from ...scene.render_scene import Camera, Film, Integrator, Light, Material, RenderScene, Shape, Value
+from ...spectra import Bands, Spectrum, Unit
+from ..fidelity import unsupported
+from ..interface import Extras
+from ..native_lines import integrator_with
+from ..ply import read_mesh, write_mesh
+
+VERSION = 1
+_FORMAT = "RenderToolbox tracer scene"
+
+
+def translate(scene: RenderScene, extras: Extras, folder: Path, name: str) -> Path:
+    """Write a scene as folder/NAME.json, its meshes in folder/meshes, and return that file."""
+    if lacking := unsupported(scene, "tracer"):
+        raise RecipeError(lacking[0])
+    scene = replace(scene, integrator=integrator_with(scene.integrator, extras, "tracer"))
+    path = folder / f"{name}.json"
+    write_text(path, _text(_scene(scene, folder)) + "\n")
+    return path
+
+
+def read(path: Path) -> RenderScene:
+    """Read a native scene, bit for bit as it was translated."""
+    try:
+        native = json.loads(path.read_text(encoding="utf-8"))
+        if (native["format"], native["version"]) != (_FORMAT, VERSION):
+            raise KeyError("format")
+        return _read_scene(native, path.parent)
+    except (OSError, ValueError, KeyError, TypeError) as error:
+        raise RenderingError(f"{path.name} cannot be read, translate the scene again ({error!r})") from error
+
+
+def _scene(scene: RenderScene, folder: Path) -> dict[str, Any]:
+    return {
+        "format": _FORMAT,
+        "version": VERSION,
+        "integrator": asdict(scene.integrator),
+        "film": _film(scene.film),
+        "camera": {**asdict(scene.camera), "to_world": scene.camera.to_world.tolist()},
+        "environment": None if scene.environment is None else _light(scene.environment),
+        "lights": [_light(light) for light in scene.lights],
+        "materials": [
+            {"id": material.id, "model": material.model, "parameters": _parameters(material.parameters)}
+            for material in scene.materials.values()
+        ],
+        "shapes": [_shape(shape, folder) for shape in scene.shapes],
+    }
+
+
+def _film(film: Film) -> dict[str, Any]:
+    bands = {"centres": film.bands.centres.tolist(), "edges": film.bands.edges.tolist()}
+    return {
+        "width": film.width,
+        "height": film.height,
+        "filter": film.filter,
+        "band_kind": film.band_kind,
+        "bands": bands,
+    }
+
+
+def _light(light: Light) -> dict[str, Any]:
+    parameters = _parameters(light.parameters)
+    return {"id": light.id, "kind": light.kind, "to_world": light.to_world.tolist(), "parameters": parameters}
+
+
+def _shape(shape: Shape, folder: Path) -> dict[str, Any]:
+    return {
+        "id": shape.id,
+        "mesh": write_mesh(shape.mesh, folder).relative_to(folder).as_posix(),
+        "material": shape.material,
+        "to_world": shape.to_world.tolist(),
+        "emission": None if shape.emission is None else _spectrum(shape.emission),
+    }
+
+
+def _parameters(parameters: Mapping[str, Value]) -> dict[str, Any]:
+    return {
+        name: _spectrum(value) if isinstance(value, Spectrum) else value for name, value in parameters.items()
+    }
+
+
+def _spectrum(spectrum: Spectrum) -> dict[str, Any]:
+    pairs = np.stack([spectrum.wavelengths, spectrum.values], axis=1)
+    return {"unit": spectrum.unit.value, "pairs": pairs.tolist()}
+
+
+def _text(value: Any, indent: str = "") -> str:
+    """Return JSON with a line for each thing that has a name, matrices and spectra on one line."""
+    inner = indent + "  "
+    if isinstance(value, dict) and value:
+        lines = [f"{inner}{json.dumps(key)}: {_text(part, inner)}" for key, part in value.items()]
+        return "{\n" + ",\n".join(lines) + f"\n{indent}}}"
+    if isinstance(value, list) and any(isinstance(part, dict) for part in value):
+        return "[\n" + ",\n".join(inner + _text(part, inner) for part in value) + f"\n{indent}]"
+    return json.dumps(value, ensure_ascii=False, allow_nan=False)
+
+
+def _read_scene(native: dict[str, Any], folder: Path) -> RenderScene:
+    camera, environment = native["camera"], native["environment"]
+    film, bands = native["film"], native["film"]["bands"]
+    materials = [
+        Material(one["id"], one["model"], _read_parameters(one["parameters"])) for one in native["materials"]
+    ]
+    return RenderScene(
+        camera=Camera(
+            camera["id"],
+            camera["projection"],
+            np.array(camera["to_world"], float),
+            tuple(camera["window"]),
+            tuple(camera["clip"]),
+        ),
+        shapes=tuple(_read_shape(one, folder) for one in native["shapes"]),
+        materials={material.id: material for material in materials},
+        lights=tuple(_read_light(one) for one in native["lights"]),
+        environment=None if environment is None else _read_light(environment),
+        integrator=Integrator(**native["integrator"]),
+        film=Film(**{**film, "bands": Bands(np.array(bands["centres"]), np.array(bands["edges"]))}),
+    )
+
+
+def _read_light(one: dict[str, Any]) -> Light:
+    to_world = np.array(one["to_world"], float)
+    return Light(one["id"], one["kind"], to_world, _read_parameters(one["parameters"]))
+
+
+def _read_shape(one: dict[str, Any], folder: Path) -> Shape:
+    emission = None if one["emission"] is None else _read_spectrum(one["emission"])
+    to_world = np.array(one["to_world"], float)
+    return Shape(one["id"], read_mesh(folder / one["mesh"]), to_world, one["material"], emission)
+
+
+def _read_parameters(parameters: dict[str, Any]) -> dict[str, Value]:
+    return {
+        name: _read_spectrum(value) if isinstance(value, dict) else value
+        for name, value in parameters.items()
+    }
+
+
+def _read_spectrum(one: dict[str, Any]) -> Spectrum:
+    wavelengths, values = np.array(one["pairs"], float).T
+    return Spectrum.of(wavelengths, values, Unit(one["unit"]))
