@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import os
 import time
 from contextlib import suppress
 from pathlib import Path
@@ -9,6 +10,7 @@ from pathlib import Path
 from ..rtb_addon.background import Event, EventStream, start_child, stop
 
 GRACE = 0.8  # [s] that a child has to stop when asked, before it is ended
+NICENESS = 5
 
 
 class ChildBatch:
@@ -32,6 +34,10 @@ class ChildBatch:
         self._deadline: float | None = None
         self._child = start_child(["render", str(folder), "--json"])
         self._events = EventStream(self._child)
+        with suppress(
+            OSError, AttributeError
+        ):  # the interface goes before the renderers, where that can be said
+            os.setpriority(os.PRIO_PROCESS, self._child.pid, NICENESS)
 
     @property
     def progress(self) -> float:

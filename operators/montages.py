@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from functools import partial
 from pathlib import Path
 
 import bpy
@@ -43,10 +44,25 @@ def split_viewport(context) -> bpy.types.Area | None:
         bpy.ops.screen.area_split(direction="VERTICAL", factor=0.5)
     added = next(area for area in window.screen.areas if area.as_pointer() not in before)
     added.ui_type = "IMAGE_EDITOR"
+    added.spaces.active.image = None  # Blender likes to put any image there
     return added
 
 
 def show(image: bpy.types.Image, area: bpy.types.Area) -> None:
-    """Show a montage in an Image Editor, whole."""
+    """Show a montage in an Image Editor; one that was not there before is shown whole."""
+    known = area.spaces.active.image == image
     area.spaces.active.image = image
     area.tag_redraw()
+    if not known:
+        # An area that was opened just now has no size before it has been drawn.
+        bpy.app.timers.register(partial(_fit, image.name), first_interval=0.1)
+
+
+def _fit(name: str) -> None:
+    """Zoom so that an image fills the editors that show it."""
+    for window in bpy.context.window_manager.windows:
+        for area in window.screen.areas:
+            if area.type == "IMAGE_EDITOR" and (image := area.spaces.active.image) and image.name == name:
+                region = next(region for region in area.regions if region.type == "WINDOW")
+                with bpy.context.temp_override(window=window, area=area, region=region):
+                    bpy.ops.image.view_all(fit_view=True)

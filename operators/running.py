@@ -73,11 +73,14 @@ def _conclude() -> None:
 
 
 def _redraw() -> None:
-    """Let everything be drawn anew that shows the batch."""
+    """Let the sidebars and the status bar be drawn anew, but not the scene, which may take long."""
     for window in bpy.context.window_manager.windows:
         for area in window.screen.areas:
-            if area.type in {"VIEW_3D", "IMAGE_EDITOR", "STATUSBAR"}:
-                area.tag_redraw()
+            for region in area.regions:
+                if region.type == "UI":
+                    region.tag_redraw()
+    # The status bar is no area of a screen, but it listens to this.
+    bpy.msgbus.publish_rna(key=(bpy.types.Window, "view_layer"))
 
 
 @bpy.app.handlers.persistent

@@ -1,0 +1,55 @@
+"""3D Viewport > Sidebar > RenderToolbox: the recipe, how it is rendered, and what came of it."""
+
+import bpy
+
+from ..operators import findings, running
+from ..operators.export_recipe import RTB_OT_export_recipe
+from ..operators.render_recipe import RTB_OT_render_recipe
+from ..operators.show_montage import RTB_OT_show_montage
+from .progress import draw_progress
+from .sentences import draw_sentences
+
+
+class RTB_PT_recipe(bpy.types.Panel):
+    """The recipe of this scene"""
+
+    bl_idname = "RTB_PT_recipe"
+    bl_label = "Recipe"
+    bl_space_type = "VIEW_3D"
+    bl_region_type = "UI"
+    bl_category = "RenderToolbox"
+
+    def draw(self, context):
+        layout = self.layout
+        layout.use_property_split = True
+        layout.use_property_decorate = False
+        draw_options(layout, context.scene)
+        layout.separator()
+        draw_run(layout)
+        width = context.region.width
+        draw_sentences(layout, findings.errors, width, alert=True)
+        draw_sentences(layout, findings.remarks, width)
+
+
+def draw_options(layout, scene) -> None:
+    """Draw where the recipe goes and how it is rendered."""
+    settings = scene.rtb
+    layout.prop(settings, "folder")
+    layout.prop(settings, "renderer")
+    column = layout.column(align=True)
+    column.prop(settings, "width")
+    column.prop(settings, "height")
+    layout.prop(settings, "samples")
+
+
+def draw_run(layout) -> None:
+    """Draw what the user can do, or how far it is."""
+    if running.batch is not None:
+        draw_progress(layout, running.batch)
+    else:
+        row = layout.row()
+        row.scale_y = 1.5
+        row.operator(RTB_OT_render_recipe.bl_idname, icon="RENDER_STILL")
+    column = layout.column(align=True)
+    column.operator(RTB_OT_show_montage.bl_idname, icon="IMAGE_DATA")
+    column.operator(RTB_OT_export_recipe.bl_idname, icon="EXPORT")

@@ -1,0 +1,33 @@
+"""Sentences in panels, broken into lines that fit: Blender's labels do not wrap."""
+
+from __future__ import annotations
+
+import textwrap
+from collections.abc import Sequence
+
+import bpy
+
+LETTER = 6.6  # mean width of a letter [pixels at scale 1]
+MARGIN = 62  # what icon and borders take [pixels at scale 1]
+MOST = 6  # sentences shown; the rest is a number
+
+
+def draw_sentences(layout, sentences: Sequence[str], width: int, alert: bool = False) -> None:
+    """Draw sentences in a box, red if something stopped; width is the region's [pixels]."""
+    if not sentences:
+        return
+    box = layout.box()
+    box.alert = alert
+    for sentence in sentences[:MOST]:
+        draw_sentence(box, sentence, width, "ERROR" if alert else "INFO")
+    if len(sentences) > MOST:
+        box.label(text=f"and {len(sentences) - MOST} more, see the folder's log.jsonl", icon="BLANK1")
+
+
+def draw_sentence(layout, sentence: str, width: int, icon: str) -> None:
+    """Draw one sentence on as many lines as it takes, an icon at the first."""
+    letters = max(int((width / bpy.context.preferences.system.ui_scale - MARGIN) / LETTER), 12)
+    column = layout.column(align=True)
+    column.scale_y = 0.8
+    for number, line in enumerate(textwrap.wrap(sentence, letters)):
+        column.label(text=line, icon="BLANK1" if number else icon)
