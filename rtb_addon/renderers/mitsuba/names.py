@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import re
+from itertools import chain, count
 
 from ...errors import RecipeError
 
@@ -20,12 +21,13 @@ class Names:
         # Names that begin otherwise are Mitsuba's own.
         clean = clean if clean[:1].isalpha() else f"{kind}_{clean}"
         # An id that is taken by another kind of thing is told apart by the kind, then by a number.
-        for candidate in (clean, f"{clean}-{kind}", *(f"{clean}-{kind}-{k}" for k in range(2, 10**6))):
+        numbered = (f"{clean}-{kind}-{k}" for k in count(2))
+        for candidate in chain((clean, f"{clean}-{kind}"), numbered):
             if candidate.lower() not in self._taken:
-                self._taken.add(candidate.lower())
-                self._given[kind, name] = candidate
-                return candidate
-        raise RecipeError(f"a million things are called {name}")
+                break
+        self._taken.add(candidate.lower())
+        self._given[kind, name] = candidate
+        return candidate
 
     def known(self, kind: str, name: str, asker: str) -> str:
         """Return the id that a thing was given, for something that refers to it."""
