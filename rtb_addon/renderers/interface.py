@@ -7,6 +7,7 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import NamedTuple, Protocol
 
+from ..scene.adjustments import NativeLine
 from ..scene.render_scene import RenderScene
 from ..spectral_image import SpectralImage
 
@@ -22,14 +23,6 @@ class Report(Protocol):
     """Called between passes with the fraction done, 0 to 1; raises Cancelled when somebody asked to stop."""
 
     def __call__(self, fraction: float, /) -> None: ...
-
-
-class NativeLine(NamedTuple):
-    """A line of a renderer's own block, that has no neutral meaning."""
-
-    text: str
-    file: str
-    line: int
 
 
 Extras = Sequence[NativeLine]

@@ -105,3 +105,28 @@ LIGHTS: Mapping[str, Mapping[str, Parameter]] = {
     "environment": {"intensity": intensity(Unit.RADIANCE), "filename": Parameter("text", "")},
     "sunsky": {"turbidity": number(3.0)},
 }
+
+_COLOURS = {"oddColor": reflectance(0.0), "evenColor": reflectance(1.0)}
+_OFFSETS = {"offsetU": number(0.0), "offsetV": number(0.0)}
+
+TEXTURES: Mapping[str, Mapping[str, Parameter]] = {
+    "bitmap": {
+        "filename": Parameter("text"),
+        "wrapMode": Parameter("text", "repeat"),
+        "gamma": number(1.0),
+        "filterMode": Parameter("text", "ewa"),
+        "maxAnisotropy": number(20.0),
+        **_OFFSETS,
+        "scaleU": number(1.0),
+        "scaleV": number(1.0),
+    },
+    "checkerboard": {"checksPerU": number(2.0), "checksPerV": number(2.0), **_OFFSETS, **_COLOURS},
+}
+
+# What a recipe may declare, by its category.
+CATEGORIES: Mapping[str, Mapping[str, Mapping[str, Parameter]]] = {
+    "material": MATERIALS,
+    "light": LIGHTS,
+    "floatTexture": TEXTURES,
+    "spectrumTexture": TEXTURES,
+}

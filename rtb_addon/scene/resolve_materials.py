@@ -1,0 +1,103 @@
+"""The materials of a scene: as declared, or what their Collada colours promote to."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Mapping
+from dataclasses import dataclass, field
+
+from ..errors import at
+from ..spectra import Spectrum, Unit
+from ..spectra.promotion import promoted
+from .collada_colours import Effect, read_effect
+from .collada_sources import child
+from .declarations import Declaration, parameters_of
+from .document import Scene
+from .render_scene import Material, Texture, TextureUse
+from .values import Values
+
+_REFERENCES = ("materialID", "otherMaterialID")
+
+
+@dataclass
+class Materials:
+    """
+    Makes materials as shapes ask for them, each once.
+
+    Parameters
+    ----------
+    declared : what the recipe declares, by id
+    native : ids that lines of the renderer's own blocks speak of
+    """
+
+    document: Scene
+    declared: Mapping[str, Declaration]
+    values: Values
+    native: frozenset[str] = frozenset()
+    made: dict[str, Material] = field(default_factory=dict)
+    textures: dict[str, Texture] = field(default_factory=dict)
+    _emissions: dict[str, Spectrum | None] = field(default_factory=dict)
+
+    def use(self, id: str) -> None:
+        """Make a material of this id, and whatever it refers to, part of the scene."""
+        if id in self.made:
+            return
+        declared = self.declared.get(id)
+        self.made[id] = self._promoted(id) if declared is None else self._declared(declared)
+        for name, value in self.made[id].parameters.items():
+            if name in _REFERENCES and isinstance(value, str):
+                self.use(value)
+            elif isinstance(value, TextureUse):
+                self._use_texture(value.texture, id)
+            elif name == "textureID" and isinstance(value, str):
+                self._use_texture(value, id)
+
+    def emission(self, id: str) -> Spectrum | None:
+        """Return the radiance of an undeclared material that emits, or None."""
+        return self._emissions.get(id)
+
+    def _declared(self, declared: Declaration) -> Material:
+        if declared.category != "material":
+            raise declared.error(f"{declared.id} is the material of a shape, declare it a material")
+        return Material(declared.id, declared.model, parameters_of(declared, self.values))
+
+    def _promoted(self, id: str) -> Material:
+        effect = self._effect(id)
+        colour = effect.diffuse or (0.5, 0.5, 0.5)
+        if any(effect.emission):
+            self._emissions[id] = promoted(effect.emission, Unit.RADIANCE)
+            self.values.warnings.append(
+                f"{id} has no mapping: its emission {_shown(effect.emission)} was promoted to a radiance"
+            )
+        if id not in self.native:
+            why = "its texture is not read, grey" if effect.textured else "its colour"
+            self.values.warnings.append(
+                f"{id} has no mapping: {why} {_shown(colour)} was promoted to a reflectance"
+            )
+        return Material(id, "matte", {"diffuseReflectance": promoted(colour)})
+
+    def _effect(self, id: str) -> Effect:
+        material = self.document.linked(f"#{id}", "material")
+        used = child(material, "instance_effect")
+        effect = self.document.linked(None if used is None else used.get("url"), "effect")
+        with at(self.document.file, self.document.line_of(effect)):
+            return read_effect(effect)
+
+    def _use_texture(self, id: str, material: str) -> None:
+        declared = self.declared.get(id)
+        if declared is None or not declared.category.endswith("Texture"):
+            user = self.declared[material]
+            raise user.error(f"{material} uses a texture {id}, declare it: {id}:spectrumTexture:bitmap")
+        self.textures[id] = Texture(id, declared.model, parameters_of(declared, self.values))
+
+
+def unused(declared: Iterable[Declaration], materials: Materials) -> list[str]:
+    """Return a sentence for each material that is declared for nothing."""
+    return [
+        f"{each.file}:{each.line}: {each.id} is the material of nothing in the scene"
+        for each in declared
+        if each.category == "material" and each.id not in materials.made
+    ]
+
+
+def _shown(colour: Iterable[float]) -> str:
+    return " ".join(f"{each:.4g}" for each in colour)
