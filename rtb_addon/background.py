@@ -175,16 +175,16 @@ class EventStream:
 
     def _read_events(self) -> None:
         assert self.process.stdout is not None
-        for line in self.process.stdout:
-            with suppress(ValueError, TypeError, AttributeError):  # not every line need be ours
-                self.inbox.put((self, Event.from_json(line)))
+        with self.process.stdout as lines:
+            for line in lines:
+                with suppress(ValueError, TypeError, AttributeError):  # not every line need be ours
+                    self.inbox.put((self, Event.from_json(line)))
         self.inbox.put((self, None))
 
     def _read_words(self) -> None:
         assert self.process.stderr is not None
-        for line in self.process.stderr:
-            if line.strip():
-                self._words.append(line.rstrip())
+        with self.process.stderr as lines:
+            self._words.extend(line.rstrip() for line in lines if line.strip())
 
 
 def send(process: subprocess.Popen, line: str) -> bool:

@@ -6,7 +6,6 @@ import os
 import time
 from collections.abc import Callable, Iterator, Sequence
 from dataclasses import dataclass, field, replace
-from difflib import get_close_matches
 from pathlib import Path
 
 from . import records
@@ -17,7 +16,7 @@ from .errors import RecipeError
 from .files import sweep
 from .keys import Key, key_of, versions_of
 from .locks import locked
-from .recipe import Recipe
+from .recipe import CONDITIONS, Recipe
 from .recipe_options import section_words
 from .rendering import Rendering, found, render_condition
 from .worker import Task
@@ -68,14 +67,10 @@ def render_recipe(
 
 def chosen_conditions(recipe: Recipe, names: Sequence[str] | None) -> list[Condition]:
     """Return the conditions of some names, in the table's order; all of them for None."""
-    known = {condition.name: condition for condition in recipe.conditions}
-    for name in names or ():
-        if name not in known:
-            near = get_close_matches(name, known, n=3, cutoff=0.4) or list(known)[:3]
-            raise RecipeError(
-                f"no condition is called {name}, there are {', '.join(near)} ({len(known)} in all)"
-            )
-    return [condition for name, condition in known.items() if names is None or name in names]
+    if not len(recipe.conditions):
+        raise RecipeError("no row below its header, each condition needs one", CONDITIONS)
+    asked = [recipe.conditions[name].name for name in names] if names is not None else None
+    return [condition for condition in recipe.conditions if asked is None or condition.name in asked]
 
 
 def _events(

@@ -20,7 +20,6 @@ from .old_recipes import import_recipe
 from .progress import ProgressBar
 from .recipe import Recipe
 from .recipe_problems import findings
-from .spectral_image import SpectralImage
 
 FAILED, WRONG, CANCELLED = 1, 2, 130
 
@@ -96,15 +95,16 @@ def renderers_installed(said: Namespace) -> int:
 
 def make_montages(recipe: Recipe, output: Path | None = None) -> Iterator[Path]:
     """Write one picture for each renderer that a recipe's conditions are rendered by."""
-    cubes: dict[str, list[Path]] = {}
+    cells: dict[str, list[Path | None]] = {}
     for condition in recipe.conditions:
-        if (file := recipe.rendering_file(condition)).is_file():
-            cubes.setdefault(recipe.options_of(condition).renderer, []).append(file)
-    for renderer, files in cubes.items():
-        target = output or recipe.montage_file(renderer)
-        # One cube after the other: a family of a thousand need not fit into memory.
-        write_png(target, make_montage(map(SpectralImage.load, files), recipe.montage))
-        yield target
+        file = recipe.rendering_file(condition)
+        # A rendering that is not there leaves its cell black, so that the others keep their places.
+        cells.setdefault(file.parent.name, []).append(file if file.is_file() else None)
+    for renderer, files in cells.items():
+        if any(files):
+            target = output or recipe.montage_file(renderer)
+            write_png(target, make_montage(files, recipe.montage))
+            yield target
 
 
 def _with_montage(recipe: Recipe, events: Iterable[Event]) -> Iterator[Event]:

@@ -71,7 +71,7 @@ class Crew:
 
     def _bury(self, worker: EventStream) -> Iterator[Event]:
         task = self._at_work.pop(worker)
-        worker.process.wait()
+        stop_all([worker.process], GRACE)
         if task is None:
             return
         how = _cause_of_death(worker)

@@ -29,8 +29,8 @@ from .scene.adjustments import Adjustments
 
 # Raised when the way from a folder to a RenderScene changes what comes out.
 ENGINE = 1
-# Where something was said does not change what was said.
-_PLACES = {"file", "line"}
+# Where something was said, or that it was odd, does not change what was said.
+_UNSAID = {"file", "line", "remarks"}
 _TEXTURE = re.compile(rb"<(?:\w+:)?init_from[^>]*>\s*([^<]+?)\s*<")
 
 
@@ -66,10 +66,10 @@ def key_of(recipe: Recipe, condition: Condition) -> Key:
 
     adjustments = adjustments_of(recipe, condition, find_file)
     parent = recipe.parent_file(condition)
-    for name in _texture_names(*_state_of(parent)):
+    for name in texture_names(parent):
         with suppress(RecipeError):  # whether it is needed is for resolving to say
             find_file(name)
-    versions = versions_of(options.renderer)
+    versions = recipe.once(("versions", options.renderer), lambda: versions_of(options.renderer))
     applied = _plain(adjustments, str(recipe.folder))
     inputs = {
         "engine": ENGINE,
@@ -101,7 +101,7 @@ def _plain(value: Any, folder: str) -> Any:
     elif isinstance(value, tuple) and hasattr(value, "_asdict"):
         value = value._asdict()
     if isinstance(value, Mapping):
-        return {str(name): _plain(each, folder) for name, each in value.items() if name not in _PLACES}
+        return {str(name): _plain(each, folder) for name, each in value.items() if name not in _UNSAID}
     if isinstance(value, list | tuple):
         return [_plain(each, folder) for each in value]
     if isinstance(value, np.ndarray):
@@ -133,8 +133,12 @@ def _digest(file: Path, size: int, time: int) -> str:
         raise RecipeError(f"cannot read {file}: {error.strerror}") from error
 
 
+def texture_names(parent: Path) -> list[str]:
+    """Return the files that a parent scene's image library names."""
+    return _texture_names(*_state_of(parent))
+
+
 @cache
 def _texture_names(file: Path, size: int, time: int) -> list[str]:
-    """Return the files that a parent scene's image library names."""
     found = _TEXTURE.findall(file.read_bytes())
     return sorted({unescape(name.decode(errors="replace")) for name in found})

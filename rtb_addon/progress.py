@@ -24,7 +24,7 @@ class ProgressBar:
         )
         self._fractions: dict[str, float] = {}
         self._failed: dict[str, list[str]] = {}
-        self._counts = dict.fromkeys(("done", "cached", "failed"), 0)
+        self._counts: dict[str, int] = dict.fromkeys(("done", "cached", "failed"), 0)
         self._warnings: dict[str, None] = {}
         self._folders: dict[str, None] = {}
         return self

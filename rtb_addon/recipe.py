@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import json
-from collections.abc import Mapping
+from collections.abc import Callable, Hashable, Mapping
 from dataclasses import dataclass, field, fields, replace
 from functools import cached_property
 from pathlib import Path
@@ -50,7 +50,7 @@ class Recipe:
     words: Mapping[str, Any] = field(default_factory=dict, repr=False)
     overrides: Mapping[str, Any] = field(default_factory=dict)
     resources: Resources = field(init=False, repr=False)
-    _read: dict[Path, Any] = field(default_factory=dict, init=False, repr=False)
+    _known: dict[Hashable, Any] = field(default_factory=dict, init=False, repr=False)
 
     def __post_init__(self) -> None:
         object.__setattr__(self, "folder", Path(self.folder).absolute())
@@ -93,13 +93,14 @@ class Recipe:
     def mappings(self) -> Mappings:
         """What conditions change in the scene, where none names a mappings file of its own."""
         file = self.folder / MAPPINGS
-        return self._once(file, read_mappings) if file.is_file() else Mappings()
+        return self.once(file, lambda: read_mappings(file)) if file.is_file() else Mappings()
 
     def mappings_of(self, condition: Condition) -> Mappings:
         """Return the mappings of a condition: the recipe's, or its mappingsFile."""
         if not (name := condition.cells.get("mappingsFile")):
             return self.mappings
-        return self._once(self._file_of(condition, name, "mappings file"), read_mappings)
+        file = self._file_of(condition, name, "mappings file")
+        return self.once(file, lambda: read_mappings(file))
 
     def parent_file(self, condition: Condition) -> Path:
         """Return the parent scene's file of a condition: the recipe's, or its colladaFile."""
@@ -111,21 +112,25 @@ class Recipe:
 
     def parent_of(self, condition: Condition) -> Scene:
         """Return the parent scene of a condition."""
-        return self._once(self.parent_file(condition), Scene.read)
+        file = self.parent_file(condition)
+        state = file.stat()  # an edited file is another scene, and has another key
+        return self.once((file, state.st_size, state.st_mtime_ns), lambda: Scene.read(file))
 
     def options_of(self, condition: Condition) -> RecipeOptions:
         """Return a condition's options: the command line's before the row's before recipe.json's."""
-        cells = {
-            option: value
-            for option, column in _COLUMNS.items()
-            if (value := condition.cells.get(column)) and option not in self.overrides
-        }
-        chosen = {**{name: _cell_value(name, text) for name, text in cells.items()}, **self.overrides}
+        chosen = self.said_for(condition)
         try:
             return replace(self.options, **chosen)
         except ValueError as error:
-            place = (CONDITIONS, condition.line) if cells else (None, None)
+            place = (CONDITIONS, condition.line) if condition.line and not self.overrides else (None, None)
             raise RecipeError(str(error), *place) from error
+
+    def said_for(self, condition: Condition) -> dict[str, Any]:
+        """Return the options that the command line or a condition's row sets."""
+        cells = {
+            name: condition.cells[column] for name, column in _COLUMNS.items() if column in condition.cells
+        }
+        return {**{name: _cell_value(name, text) for name, text in cells.items()}, **self.overrides}
 
     def find_file(self, name: str) -> Path | None:
         """Return a file of the recipe by the name that a cell, a mapping or the parent scene gives it."""
@@ -160,6 +165,12 @@ class Recipe:
         """Return everything that is wrong with the recipe, not the first thing only."""
         return problems(self)
 
+    def once(self, what: Hashable, find_out: Callable[[], Any]) -> Any:
+        """Return what something is, found out the first time that anybody asks this recipe."""
+        if what not in self._known:
+            self._known[what] = find_out()
+        return self._known[what]
+
     def _file_of(self, condition: Condition, name: str, what: str) -> Path:
         file = self.find_file(name)
         if file is None:
@@ -169,11 +180,6 @@ class Recipe:
                 condition.line,
             )
         return file
-
-    def _once(self, file: Path, read: Any) -> Any:
-        if file not in self._read:
-            self._read[file] = read(file)
-        return self._read[file]
 
     def _as_words(self) -> dict[str, Any]:
         options = section_words(self.options)

@@ -7,8 +7,7 @@ from typing import TYPE_CHECKING, NamedTuple
 
 from . import renderers
 from .errors import RecipeError
-from .recipe_scene import adjustments_of, resolve_condition, unsupported
-from .renderers.fidelity import fidelity
+from .recipe_scene import adjustments_of, lacks, resolve_condition
 
 if TYPE_CHECKING:
     from .conditions import Condition
@@ -75,10 +74,4 @@ def _condition_findings(recipe: Recipe, condition: Condition) -> Iterator[Findin
         yield Finding(error)
         return
     yield from (Finding(None, sentence) for sentence in resolved.warnings)
-    yield from (_unsupported(name, feature) for feature in unsupported(name, resolved.scene))
-
-
-def _unsupported(renderer: str, word: str) -> Finding:
-    able = [name for name in renderers.names() if fidelity(name, word).level != "absent"]
-    remedy = f"choose {' or '.join(able)}" if able else "no renderer here knows it"
-    return Finding(RecipeError(f"{renderer} knows no {word}, {remedy}"))
+    yield from (Finding(RecipeError(sentence)) for sentence in lacks(name, resolved.scene))

@@ -2,12 +2,13 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
+import re
+from collections.abc import Callable, Sequence
 from pathlib import Path
 from typing import TYPE_CHECKING
 
-from .renderers.fidelity import fidelity
-from .scene.adjustments import Adjustments
+from .renderers.fidelity import TABLE, unsupported
+from .scene.adjustments import Adjustments, NativeLine
 from .scene.render_scene import RenderScene
 from .scene.resolve import Resolved, SceneSettings, resolve
 
@@ -16,6 +17,9 @@ if TYPE_CHECKING:
     from .recipe import Recipe
 
 FindFile = Callable[[str], Path | None]
+
+# Our options as native lines call them.
+_NATIVE_NAMES = {"samples": "sampleCount", "width": "width", "height": "height"}
 
 
 def adjustments_of(recipe: Recipe, condition: Condition, find_file: FindFile) -> Adjustments:
@@ -31,19 +35,15 @@ def resolve_condition(recipe: Recipe, condition: Condition, adjustments: Adjustm
     return resolve(recipe.parent_of(condition), adjustments, settings, recipe.find_file)
 
 
-def unsupported(renderer: str, scene: RenderScene) -> list[str]:
-    """Return the words of the vocabulary that a scene uses and a renderer lacks."""
-    return [word for word in features(scene) if fidelity(renderer, word).level == "absent"]
+def lacks(renderer: str, scene: RenderScene) -> list[str]:
+    """Return a sentence for everything in a scene that a renderer cannot render."""
+    if not any(renderer in row for row in TABLE.values()):
+        return []  # one of somebody else's, which must say so itself
+    return unsupported(scene, renderer)
 
 
-def features(scene: RenderScene) -> list[str]:
-    """Return the words of the vocabulary that a scene uses."""
-    used = {f"camera {scene.camera.projection}"}
-    used |= {f"material {scene.materials[shape.material].model}" for shape in scene.shapes}
-    used |= {f"light {light.kind}" for light in scene.lights}
-    used |= {f"texture {texture.kind}" for texture in scene.textures.values()}
-    if any(shape.emission is not None for shape in scene.shapes):
-        used.add("light area")
-    if scene.environment is not None:
-        used.add(f"light {scene.environment.kind}")
-    return sorted(used)
+def remaining_lines(recipe: Recipe, condition: Condition, lines: Sequence[NativeLine]) -> list[NativeLine]:
+    """Return a condition's native lines without those that its row or the command line overrules."""
+    overruled = [_NATIVE_NAMES[name] for name in recipe.said_for(condition) if name in _NATIVE_NAMES]
+    names = re.compile(rf"\b({'|'.join(overruled)})\b" if overruled else r"(?!)", re.IGNORECASE)
+    return [line for line in lines if not names.search(re.split(r" [-+*/]?= ", line.text)[0])]

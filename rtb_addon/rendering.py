@@ -15,7 +15,7 @@ from .errors import RecipeError
 from .files import temporary_prefix
 from .keys import Key, key_of
 from .recipe import Recipe
-from .recipe_scene import resolve_condition, unsupported
+from .recipe_scene import lacks, remaining_lines, resolve_condition
 from .renderers.interface import RenderOptions, Report
 from .spectral_image import SpectralImage
 
@@ -67,11 +67,12 @@ def render_condition(
     began = time.monotonic()
     resolved = resolve_condition(recipe, condition, key.adjustments)
     options = recipe.options_of(condition)
-    if missing := unsupported(options.renderer, resolved.scene):
-        raise RecipeError(f"{options.renderer} knows no {' and no '.join(missing)}, see check")
+    if missing := lacks(options.renderer, resolved.scene):
+        raise RecipeError(missing[0])
+    extras = remaining_lines(recipe, condition, resolved.extras)
     renderer = renderers.find(options.renderer)
     folder = recipe.scenes_folder / options.renderer
-    native = renderer.translate(resolved.scene, resolved.extras, folder, name)
+    native = renderer.translate(resolved.scene, extras, folder, name)
     image = renderer.render(native, RenderOptions(threads), report).scaled(recipe.conventions.factor)
     seconds = time.monotonic() - began
     return _saved(

@@ -1,0 +1,203 @@
+"""RenderToolbox3's files become a recipe folder that holds all they need."""
+
+from __future__ import annotations
+
+import os
+import re
+from collections.abc import Iterable, Iterator, Sequence
+from contextlib import suppress
+from functools import cached_property
+from pathlib import Path, PurePosixPath
+from typing import Literal
+from urllib.parse import unquote
+
+from . import records, renderers
+from .conditions import Condition, Conditions, decoded, parse_conditions
+from .errors import RecipeError
+from .files import write_text
+from .keys import texture_names
+from .mappings import Mappings, parse_mappings
+from .recipe import CONDITIONS, Recipe, write_recipe
+from .recipe_options import Conventions, MontageOptions, RecipeOptions
+from .resources import leads_outside
+from .scene.document import Scene
+from .spectra.library import served
+
+# What RenderToolbox3 did when no mappings file was named: its renderers mirrored the camera's x axis.
+DEFAULT_MAPPINGS = """\
+% RenderToolbox3's default mappings: mirror the camera's x axis back
+Collada {
+    Camera:scale|sid=scale = -1 1 1
+}
+"""
+# Of RenderToolbox3's defaults: direct light only, in a small image.
+_OPTIONS = RecipeOptions(width=320, height=240, integrator="direct", depth=2)
+_FILE_NAME = re.compile(r"\.[A-Za-z][A-Za-z0-9]{1,4}$")
+
+
+def import_recipe(
+    parent: Path,
+    conditions: Path | None,
+    mappings: Path | None,
+    folder: Path,
+    *,
+    units: Literal["si", "rtb3"] = "si",
+    data: Sequence[Path] = (),
+    options: RecipeOptions = _OPTIONS,
+) -> tuple[Recipe, list[str]]:
+    """
+    Write a recipe folder from old files and return the recipe with one sentence for each oddity.
+
+    Parameters
+    ----------
+    parent : the parent scene, Collada
+    conditions, mappings : the old tables; None: one condition, RenderToolbox3's default mappings
+    folder : of the new recipe
+    units : si, or rtb3: light spectra stay total power
+    data : folders to search for files that are not beside these, nor in a resources/ there
+    options : how to render
+    """
+    name = re.sub(r"[^\w .-]", "_", parent.stem).strip(" .") or "recipe"
+    scene, table_text = _bytes_of(parent), _text_of(conditions)
+    mappings_text = DEFAULT_MAPPINGS if mappings is None else _text_of(mappings)
+    table = parse_conditions(table_text, conditions, name) if conditions else Conditions.single(name)
+    search = Search([path.parent for path in (parent, conditions, mappings) if path], data)
+    wanted = _Wanted(search)
+    wanted.of_parent(parent)
+    wanted.of_family(Scene.parse(scene, parent), table, parse_mappings(mappings_text, mappings or name))
+    recipe = write_recipe(
+        folder,
+        name,
+        options,
+        Conventions(units, "rtb3"),
+        MontageOptions(),
+        scene,
+        table,
+        mappings_text,
+        {_target(each): file.read_bytes() for each, file in wanted.found.items()},
+        {
+            "imported from": [path.name for path in (parent, conditions, mappings) if path],
+            "library version": records.library_version(),
+        },
+    )
+    if conditions:  # with its comments
+        write_text(recipe.folder / CONDITIONS, table_text)
+    return recipe, list(wanted.sentences())
+
+
+class Search:
+    """
+    Looks files up beside the old ones and in data folders, and nowhere else.
+
+    Parameters
+    ----------
+    beside : folders of the old files; only they and their resources/ are searched
+    data : folders that are searched with everything below
+    """
+
+    def __init__(self, beside: Iterable[Path], data: Iterable[Path]) -> None:
+        self._beside = [place for folder in dict.fromkeys(beside) for place in (folder, folder / "resources")]
+        self._data = list(data)
+        for folder in self._data:
+            if not folder.is_dir():
+                raise RecipeError(f"{folder} is no folder, --data must name folders")
+
+    def find(self, name: str) -> Path | None:
+        """Return the file of a name; one that leads elsewhere is looked up by its base name, as ever."""
+        for plain in dict.fromkeys((name.replace("\\", "/"), unquote(name.removeprefix("file://")))):
+            base = PurePosixPath(plain.replace("\\", "/")).name
+            wanted = [base] if leads_outside(plain) else [plain, base]
+            for place in (*self._beside, *self._data):
+                for each in wanted:
+                    if each and os.path.isfile(place / each) and self._inside(place / each):  # noqa: PTH113
+                        return place / each
+            if base in self._below_data:
+                return self._below_data[base]
+        return None
+
+    def _inside(self, file: Path) -> bool:
+        folders = (*self._beside, *self._data)
+        return any(file.resolve().is_relative_to(folder.resolve()) for folder in folders)
+
+    @cached_property
+    def _below_data(self) -> dict[str, Path]:
+        found: dict[str, Path] = {}
+        for folder in self._data:
+            for place, below, files in os.walk(folder):
+                below.sort()
+                for name in sorted(files):
+                    if self._inside(Path(place) / name):
+                        found.setdefault(name, Path(place) / name)
+        return found
+
+
+class _Wanted:
+    """The files that a recipe names: those found, and those missing."""
+
+    def __init__(self, search: Search) -> None:
+        self.found: dict[str, Path] = {}
+        self._missing: dict[str, None] = {}
+        self._search = search
+
+    def find(self, name: str) -> Path | None:
+        """Look a name up and remember the outcome."""
+        if name not in self.found and (file := self._search.find(name)) is not None:
+            self.found[name] = file
+        if name not in self.found and _FILE_NAME.search(name):
+            self._missing[name] = None
+        return self.found.get(name)
+
+    def of_parent(self, parent: Path) -> None:
+        """Find the textures of a parent scene."""
+        for name in texture_names(parent):
+            self.find(name)
+
+    def of_family(self, document: Scene, conditions: Conditions, mappings: Mappings) -> None:
+        """Find what the rows of a table and the mappings that apply to them name."""
+        for condition in conditions:
+            scene, changes = self._own(condition, document, mappings)
+            for renderer in dict.fromkeys((_OPTIONS.renderer, "pbrt", *renderers.names())):
+                # What only another renderer's block has wrong is said when that one is to render.
+                with suppress(*([] if renderer == _OPTIONS.renderer else [RecipeError])):
+                    changes.fill_in(condition, renderer, scene, self.find)
+
+    def sentences(self) -> Iterator[str]:
+        """Yield what somebody should know about files that were not found."""
+        for name in self._missing:
+            if served(name) is not None:
+                yield f"{name} was not found, the library's own is served in its place"
+            else:
+                yield f"{name} was not found, name its folder with --data or put it into resources/"
+
+    def _own(self, condition: Condition, document: Scene, mappings: Mappings) -> tuple[Scene, Mappings]:
+        """Return the parent scene and the mappings of a condition, where its row names its own."""
+        if (name := condition.cells.get("colladaFile")) and (file := self.find(name)):
+            self.of_parent(file)
+            document = Scene.read(file)
+        if (name := condition.cells.get("mappingsFile")) and (file := self.find(name)):
+            mappings = parse_mappings(_text_of(file), file)
+        return document, mappings
+
+
+def _target(name: str) -> str:
+    """Return where below resources/ a file of a name goes, such that the recipe finds it by that name."""
+    plain = unquote(name.removeprefix("file://")).replace("\\", "/")
+    path = PurePosixPath(plain)
+    if leads_outside(plain):
+        return path.name
+    return str(path.relative_to("resources")) if path.parts[0] == "resources" else str(path)
+
+
+def _bytes_of(file: Path) -> bytes:
+    try:
+        return file.read_bytes()
+    except OSError as error:
+        raise RecipeError(f"cannot read {file}: {error.strerror}") from error
+
+
+def _text_of(file: Path | None) -> str:
+    if file is None:
+        return ""
+    if file.suffix.lower() == ".json":
+        raise RecipeError(f"{file.name} is JSON, only RenderToolbox3's text files can be imported")
+    return decoded(_bytes_of(file))
