@@ -12,7 +12,7 @@ from typing import Any
 
 from ..errors import RecipeError, at, choices
 from .adjustments import Adjustments, PathEdit, Remark
-from .paths import Element, find_id, local_name, parse_path, read, write
+from .paths import Element, local_name, parse_path, read, write
 
 _DECLARED = re.compile(rb"""^\s*<\?xml[^>]*?encoding\s*=\s*["']([\w.-]+)["'][^>]*\?>""")
 # Those in which "<!" is what it is in ASCII.
@@ -74,11 +74,15 @@ class Scene:
     @cached_property
     def ids(self) -> tuple[str, ...]:
         """Every id, in the order of the document."""
-        return tuple(self.root.xpath("//@id"))
+        return tuple(self._by_id)
 
     def element(self, id: str) -> Element | None:
         """Return the element with an id, or None."""
-        return find_id(self.root, id) if id != "document" else None
+        return self._by_id.get(id)
+
+    @cached_property
+    def _by_id(self) -> dict[str, Element]:
+        return {each.get("id"): each for each in self.root.xpath("//*[@id]")}
 
     def linked(self, url: str | None, what: str) -> Element:
         """Return the element that a link like ``#Cube-mesh`` leads to."""

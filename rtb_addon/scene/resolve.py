@@ -94,7 +94,7 @@ def resolve(
         for one in placed
         if one.kind == "controller"
     ]
-    remarks = map(str, (*adjustments.remarks, *document.remarks))
+    remarks = map(str, (*adjustments.remarks, *document.remarks, *materials.unused()))
     return Resolved(scene, adjustments.native, tuple(dict.fromkeys((*remarks, *left_out, *values.warnings))))
 
 

@@ -8,6 +8,7 @@ from dataclasses import dataclass, field
 from ..errors import at
 from ..spectra import Spectrum, Unit
 from ..spectra.promotion import promoted
+from .adjustments import Remark
 from .collada_colours import Effect, read_effect
 from .collada_sources import child
 from .declarations import Declaration, parameters_of
@@ -55,9 +56,21 @@ class Materials:
         """Return the radiance of an undeclared material that emits, or None."""
         return self._emissions.get(id)
 
+    def unused(self) -> list[Remark]:
+        """Return a remark for each material that is declared for nothing."""
+        return [
+            Remark(f"{each.id} is the material of nothing in the scene", each.file, each.line)
+            for each in self.declared.values()
+            if each.category == "material" and each.id not in self.made
+        ]
+
     def _declared(self, declared: Declaration) -> Material:
         if declared.category != "material":
             raise declared.error(f"{declared.id} is the material of a shape, declare it a material")
+        if self.document.element(declared.id) is not None and any(self._effect(declared.id).emission):
+            self.values.warnings.append(
+                f"the emission of {declared.id} is left out, declare the mesh that emits an area light"
+            )
         return Material(declared.id, declared.model, parameters_of(declared, self.values))
 
     def _promoted(self, id: str) -> Material:
@@ -88,15 +101,6 @@ class Materials:
             user = self.declared[material]
             raise user.error(f"{material} uses a texture {id}, declare it: {id}:spectrumTexture:bitmap")
         self.textures[id] = Texture(id, declared.model, parameters_of(declared, self.values))
-
-
-def unused(declared: Iterable[Declaration], materials: Materials) -> list[str]:
-    """Return a sentence for each material that is declared for nothing."""
-    return [
-        f"{each.file}:{each.line}: {each.id} is the material of nothing in the scene"
-        for each in declared
-        if each.category == "material" and each.id not in materials.made
-    ]
 
 
 def _shown(colour: Iterable[float]) -> str:

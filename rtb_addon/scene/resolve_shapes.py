@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections import Counter
 from collections.abc import Iterator, Mapping
 from functools import lru_cache
 
@@ -12,7 +13,6 @@ from ..spectra import FloatArray, Spectrum
 from .collada_meshes import Part, geometry_parts
 from .collada_nodes import Instance
 from .document import Scene
-from .paths import Element
 from .render_scene import Mesh, Shape
 from .resolve_materials import Materials
 
@@ -32,14 +32,16 @@ def shapes_of(
     ----------
     emissions : radiance of those geometries that emit, by id
     """
-    counts = _shape_counts(document, placed)
-    made: dict[str, int] = {}
+    parts = _parts_by_id(document, placed)
+    total = Counter[str]()
+    for instance in placed:
+        total[instance.thing.get("id")] += len(parts[instance.thing.get("id")])
+    made = Counter[str]()
     for instance in placed:
         id = instance.thing.get("id")
-        for part in _parts(document, instance.thing):
-            number = made.get(id, 0)
-            made[id] = number + 1
-            name = f"{id}_{number}" if counts[id] > 1 else id
+        for part in parts[id]:
+            name = f"{id}_{made[id]}" if total[id] > 1 else id
+            made[id] += 1
             if (shape := _shape(document, instance, part, name, materials, emissions.get(id))) is not None:
                 yield shape
 
@@ -62,17 +64,13 @@ def _shape(
     return Shape(name, mesh, to_world, material, emission or materials.emission(material))
 
 
-def _parts(document: Scene, geometry: Element) -> tuple[Part, ...]:
-    with at(document.file, document.line_of(geometry)):
-        return geometry_parts(geometry)
-
-
-def _shape_counts(document: Scene, placed: list[Instance]) -> dict[str, int]:
-    counts: dict[str, int] = {}
+def _parts_by_id(document: Scene, placed: list[Instance]) -> dict[str, tuple[Part, ...]]:
+    found: dict[str, tuple[Part, ...]] = {}
     for instance in placed:
-        id = instance.thing.get("id")
-        counts[id] = counts.get(id, 0) + len(_parts(document, instance.thing))
-    return counts
+        if (id := instance.thing.get("id")) not in found:
+            with at(document.file, document.line_of(instance.thing)):
+                found[id] = geometry_parts(instance.thing)
+    return found
 
 
 def _material(document: Scene, instance: Instance, symbol: str) -> str:

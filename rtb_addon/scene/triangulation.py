@@ -24,6 +24,8 @@ def triangulate(counts: IntArray, points: FloatArray) -> IntArray:
     -------
     (triangles, 3) array of corners
     """
+    if (counts == 3).all():
+        return np.arange(len(points)).reshape(-1, 3)
     starts = np.cumsum(counts) - counts
     found: list[IntArray] = [np.zeros((0, 3), np.int64)]
     owners: list[IntArray] = [np.zeros(0, np.int64)]

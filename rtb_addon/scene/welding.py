@@ -6,12 +6,15 @@ import numpy as np
 
 from ..spectra import FloatArray
 from .render_scene import IntArray, Mesh
+from .surface import distinct
 
 # Values, and which of them each corner has.
 Corners = tuple[FloatArray, IntArray]
 
 # Corner normals that differ by less than this [radians] from their face's make it flat.
 _FLAT = 1e-4
+# So many triangles tell most smooth meshes from flat ones.
+_FEW = 1000
 
 
 def welded(
@@ -53,41 +56,36 @@ def _turned(triangles: IntArray, faces: FloatArray, normals: Corners) -> tuple[I
     values, places = normals
     corners = values[places[triangles]]
     back = np.einsum("tcx,tx->t", corners, faces) < 0
-    triangles = np.where(back[:, None], triangles[:, ::-1], triangles)
-    corners = np.where(back[:, None, None], corners[:, ::-1], corners)
-    faces = np.where(back[:, None], -faces, faces)
-    silent = (corners == 0).all(axis=2)
-    if ((np.linalg.norm(corners - faces[:, None], axis=2) < _FLAT) | silent).all():
+    if back.any():
+        triangles = np.where(back[:, None], triangles[:, ::-1], triangles)
+        corners = np.where(back[:, None, None], corners[:, ::-1], corners)
+        faces = np.where(back[:, None], -faces, faces)
+    if _are_flat(corners[:_FEW], faces[:_FEW]) and _are_flat(corners, faces):
         return triangles, None
+    silent = ~corners.any(axis=2)
+    if not silent.any():
+        return triangles, normals
     # A corner whose normal has no length takes its face's.
     places = places.copy()
     places[triangles[silent]] = len(values) + np.arange(silent.sum())
     return triangles, (np.concatenate([values, faces[np.nonzero(silent)[0]]]).astype(np.float32), places)
 
 
+def _are_flat(corners: FloatArray, faces: FloatArray) -> bool:
+    apart = corners - faces[:, None].astype(np.float32)
+    near = np.einsum("tcx,tcx->tc", apart, apart) < _FLAT**2
+    return bool((near | ~corners.any(axis=2)).all())
+
+
 def _indexed(triangles: IntArray, positions: Corners, normals: Corners | None, uvs: Corners | None) -> Mesh:
     corners = triangles.ravel()
     keys = positions[1][corners]
     for extra in (normals, uvs):
-        if extra is not None:
-            same = distinct_rows(extra[0])[1][extra[1][corners]]
+        # Where each vertex has its own of it, it tells no vertices apart.
+        if extra is not None and not np.array_equal(extra[1], positions[1]):
+            same = distinct(extra[0]).indices[extra[1][corners]]
             keys = np.unique(keys * (int(same.max()) + 1) + same, return_inverse=True)[1].ravel()
     _, first, order = np.unique(keys, return_index=True, return_inverse=True)
     kept = corners[first]
     chosen = [None if each is None else each[0][each[1][kept]] for each in (normals, uvs)]
     return Mesh(positions[0][positions[1][kept]], order.reshape(-1, 3).astype(np.int32), *chosen)
-
-
-def distinct_rows(rows: FloatArray) -> tuple[IntArray, IntArray]:
-    """Return the first place of each distinct (rows, n) float32 row, and for each row which one it is."""
-    # Adding zero makes -0 and 0 one.
-    words = np.ascontiguousarray(rows + np.float32(0), np.float32).view(np.uint32).astype(np.uint64)
-    keys = np.zeros(len(rows), np.uint64)
-    for column in words.T:
-        keys = (keys ^ column) * np.uint64(0x9E3779B97F4A7C15)
-        keys ^= keys >> np.uint64(29)
-    _, first, places = np.unique(keys, return_index=True, return_inverse=True)
-    if not np.array_equal(rows[first][places], rows):
-        # Two rows share a key: so rare that slow is good enough.
-        _, first, places = np.unique(rows, axis=0, return_index=True, return_inverse=True)
-    return first, places.ravel()
