@@ -47,7 +47,7 @@ class MitsubaRenderer:
         except RuntimeError as error:
             raise RenderingError(f"Mitsuba failed: {_sentence(error)}") from error
         check_pixels(radiance)
-        attributes = {"renderer": self.name, "rendererVersion": installed.version, "seed": str(scene.seed)}
+        attributes = {"renderer": self.name, "renderer_version": installed.version, "seed": str(scene.seed)}
         return SpectralImage(radiance, scene.bands, scene.band_kind, attributes={**attributes, **facts})
 
 

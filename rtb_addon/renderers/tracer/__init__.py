@@ -43,11 +43,11 @@ class Tracer:
         radiance, kernel = integrate.render(scene, report)
         attributes = {
             "renderer": self.name,
-            "rendererVersion": VERSION,
+            "renderer_version": VERSION,
             "integrator": f"{scene.integrator.kind}, depth {scene.integrator.depth}",
             "samples": str(scene.integrator.samples),
             "seed": str(scene.integrator.seed),
-            "rayKernel": kernel,
+            "ray_kernel": kernel,
         }
         return SpectralImage(radiance, scene.film.bands, scene.film.band_kind, 1.0, attributes)
 
