@@ -158,8 +158,7 @@ def _meaning(recipe: Recipe) -> str:
         "blender": "pictures show what Blender's camera shows",
         "rtb3": "pictures are mirrored unless a mapping flips the camera, as in RenderToolbox3",
     }[recipe.conventions.handedness]
-    count = len(recipe.conditions)
     return (
-        f"{recipe.name}: {count} condition{'s' * (count != 1)}; units {recipe.conventions.units}: {units}; "
+        f"{recipe.name}: units {recipe.conventions.units}: {units}; "
         f"handedness {recipe.conventions.handedness}: {hand}; band values: {recipe.options.band_kind}"
     )

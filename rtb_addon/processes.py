@@ -11,8 +11,7 @@ def born(pid: int) -> str:
     """Return when a process started, in clock ticks since this boot; empty where nobody says."""
     try:
         boot = Path("/proc/sys/kernel/random/boot_id").read_text().strip()
-        # The program's name stands in brackets and may hold anything; the start is the 20th word after it.
-        return f"{boot} {Path(f'/proc/{pid}/stat').read_text().rpartition(')')[2].split()[19]}"
+        return f"{boot} {_state(pid)[19]}"
     except (OSError, IndexError):
         return ""
 
@@ -27,7 +26,15 @@ def runs(pid: int) -> bool:
         return False
     except PermissionError:
         return True
-    return True
+    try:
+        return _state(pid)[0] not in "ZX"  # dead, and only not yet buried
+    except (OSError, IndexError):
+        return True
+
+
+def _state(pid: int) -> list[str]:
+    """Return the words after a process's name, which stands in brackets and may hold anything."""
+    return Path(f"/proc/{pid}/stat").read_text().rpartition(")")[2].split()
 
 
 def _runs_on_windows(pid: int) -> bool:

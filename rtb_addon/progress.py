@@ -17,8 +17,9 @@ class ProgressBar:
         from tqdm import tqdm
 
         self._bar = tqdm(
-            unit="condition",
-            bar_format="{l_bar}{bar}| {n:.1f}/{total} conditions{postfix}",
+            total=1,  # until the first event says how many
+            bar_format="{l_bar}{bar}| {n:.1f} of {total} conditions{postfix}",
+            delay=0.1,
             mininterval=0.1 if sys.stderr.isatty() else 5.0,
             file=sys.stderr,
         )
@@ -50,7 +51,7 @@ class ProgressBar:
             self._bar.write(f"{event.condition}: {event.message}", file=sys.stderr)
         self._bar.total = event.total
         self._bar.n = event.finished + sum(self._fractions.values())
-        left = "" if event.remaining is None else f", {_clock(event.remaining)} left"
+        left = "" if event.remaining is None else f"{_clock(event.remaining)} left"
         self._bar.set_postfix_str(left, refresh=False)
         self._bar.update(0)
         if not event.condition and event.kind in {"finished", "cancelled"}:

@@ -16,15 +16,16 @@ import sys
 import time
 import traceback
 from dataclasses import dataclass, field, replace
-from typing import Any, TextIO
+from typing import TYPE_CHECKING, Any, TextIO
 
 from .background import Event
 from .errors import Cancelled, RecipeError, RenderingError
 from .lifeline import stop_for_good, watch_parent
-from .recipe import Recipe
-from .rendering import render_condition
 
-GRACE = 1.0  # [s] from the wish to stop to the end, whatever native code is doing
+if TYPE_CHECKING:
+    from .recipe import Recipe
+
+GRACE = 0.5  # [s] from the wish to stop to the end, whatever native code is doing
 INTERVAL = 0.1  # [s] between two events of progress
 
 
@@ -97,6 +98,9 @@ def main() -> None:
 
 def _outcome(task: Task, recipes: dict[tuple[str, str], Recipe], desk: Desk) -> Event:
     """Return how a task ended; nothing that a rendering raises ends the worker."""
+    # Only now: a worker listens to its parent before it imports what takes a second.
+    from .rendering import render_condition
+
     try:
         recipe = _recipe_of(task, recipes)
         done = render_condition(recipe, task.condition, desk.report, threads=task.threads, fresh=task.fresh)
@@ -120,6 +124,8 @@ def _outcome(task: Task, recipes: dict[tuple[str, str], Recipe], desk: Desk) -> 
 
 def _recipe_of(task: Task, recipes: dict[tuple[str, str], Recipe]) -> Recipe:
     """Return a task's recipe, read once: its scenes stay parsed from condition to condition."""
+    from .recipe import Recipe
+
     which = task.folder, json.dumps(task.overrides, sort_keys=True)
     if which not in recipes:
         recipes[which] = Recipe.load(task.folder).overridden(**task.overrides)

@@ -88,3 +88,24 @@ def write_family(tmp_path, plugin):
         )
 
     return write
+
+
+@pytest.fixture
+def old_recipe(tmp_path):
+    """Write an old recipe's three files, and others that they name in places of all kinds."""
+    for folder in ("old/resources", "data/deep"):
+        (tmp_path / folder).mkdir(parents=True)
+    for name in ("old/beside.spd", "old/resources/inside.spd", "data/deep/far.spd"):
+        (tmp_path / name).write_text("300 0.5\n800 0.5\n")
+    (tmp_path / "old" / "stone.png").write_bytes(b"a picture")
+    parent, conditions, mappings = (tmp_path / "old" / f"old{end}" for end in (".dae", "C.txt", "M.txt"))
+    image = '<library_images><image id="i"><init_from>file:///C:/me/stone.png</init_from></image></library_images>'
+    parent.write_text(PARENT.replace("<library_cameras>", image + "<library_cameras>"))
+    conditions.write_text(
+        "imageName\tpaint\n% all kinds of places\na\tbeside.spd\nb\tresources/inside.spd\nc\tgone.spd\n"
+    )
+    mappings.write_text(
+        MAPPINGS.replace("300:10 800:10", "D65.spd")
+        + "PBRT {\n    Paint-material:material:matte\n    Paint-material:Kd.spectrum = far.spd\n}\n"
+    )
+    return parent, conditions, mappings
