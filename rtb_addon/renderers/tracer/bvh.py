@@ -1,10 +1,10 @@
 """
 The ray kernel where Embree has no wheel: a bounding volume hierarchy in plain numpy.
 
-Triangles are ordered along a Morton curve and boxed in groups of two to the root, a complete binary
-tree without pointers (Lauterbach et al. 2009 without the splits). All rays go down it together: a list of
-(ray, node) pairs, a level at a time. The arithmetic is double, on the same single-precision corners as
-Embree's.
+Triangles are ordered along a Morton curve and boxed two by two up to the root: a complete binary
+tree without pointers (after Lauterbach et al., *Fast BVH Construction on GPUs*, 2009). All rays go
+down it together, as a list of rays and nodes, a level at a time. The arithmetic is double, on the same
+single-precision corners as Embree's. Arrays have an axis of space first: numpy is quickest along rows.
 """
 
 from __future__ import annotations
@@ -27,23 +27,21 @@ class Bvh:
     def __init__(self, corners: FloatArray) -> None:
         corners = corners.astype(float)
         order = _morton_order(corners.mean(axis=1))
-        levels = max(len(order) - 1, 0) // _LEAF
-        self._depth = levels.bit_length()
-        # The last triangle fills up the tree: it is met twice, at the same place.
-        self._order = np.pad(order, (0, (_LEAF << self._depth) - len(order)), "edge") if len(order) else order
-        self._first = corners[self._order, 0]
-        self._edges = corners[self._order, 1:] - corners[self._order, :1]
-        self._boxes = _boxes(corners[self._order], self._depth) if len(order) else []
+        depth = (max(len(order) - 1, 0) // _LEAF).bit_length()
+        # The last triangle fills up the tree: it is met several times, at the same place.
+        self._order = np.pad(order, (0, (_LEAF << depth) - len(order)), "edge") if len(order) else order
+        self._boxes = _boxes(corners[self._order], depth) if len(order) else []
+        self._units = _units(corners[self._order])
 
     def closest(self, origins: FloatArray, directions: FloatArray, reach: FloatArray | None) -> Hits:
         """Return the first triangle of each ray, the one with the lower number where two tie."""
         far = np.full(len(origins), np.inf) if reach is None else reach.astype(float)
-        ray, slot, t, u, v = self._all(origins.astype(float), directions.astype(float), far)
-        triangle = np.full(len(origins), -1, np.int32)
-        distance, at = far.astype(np.float32), np.zeros((2, len(origins)), np.float32)
+        ray, slot, t, u, v = self._all(origins, directions, far)
         first = np.lexsort((self._order[slot], t, ray))
         first = first[np.diff(ray[first], prepend=-1) > 0]
         met = ray[first]
+        triangle, distance = np.full(len(origins), -1, np.int32), far.astype(np.float32)
+        at = np.zeros((2, len(origins)), np.float32)
         triangle[met], distance[met] = self._order[slot[first]], t[first]
         at[:, met] = u[first], v[first]
         return Hits(triangle, distance, at[0], at[1])
@@ -51,36 +49,23 @@ class Bvh:
     def blocked(self, origins: FloatArray, directions: FloatArray, reach: FloatArray) -> NDArray[np.bool_]:
         """Return which rays meet any triangle before their reach."""
         blocked = np.zeros(len(origins), bool)
-        blocked[self._all(origins.astype(float), directions.astype(float), reach.astype(float))[0]] = True
+        blocked[self._all(origins, directions, reach.astype(float))[0]] = True
         return blocked
 
     def _all(self, origins: FloatArray, directions: FloatArray, far: FloatArray) -> tuple:
         """Return every meeting of rays with triangles, as arrays: ray, slot, t, u, v."""
+        o, d = origins.T.astype(float), directions.T.astype(float)
+        inverse = 1 / np.where(d == 0, 1e-30, d)
         ray = np.arange(len(origins) if len(self._order) else 0)
-        node = np.zeros(len(ray), int)
-        inverse = 1 / np.where(directions == 0, 1e-30, directions)
+        node = np.zeros_like(ray)
         for level, boxes in enumerate(self._boxes):
             if level:
                 ray, node = np.repeat(ray, 2), np.repeat(2 * node, 2)
                 node[1::2] += 1
-            ray, node = _entered(origins, inverse, far, boxes, ray, node)
-        ray = np.repeat(ray, _LEAF)
+            inside = _entered(o, inverse, far, boxes, ray, node)
+            ray, node = ray[inside], node[inside]
         slot = (node[:, None] * _LEAF + np.arange(_LEAF)).ravel()
-        t, u, v = self._planes(origins[ray], directions[ray], slot)
-        met = np.nonzero((u >= 0) & (v >= 0) & (u + v <= 1) & (t > 0) & (t <= far[ray]))[0]
-        return ray[met], slot[met], t[met], u[met], v[met]
-
-    def _planes(self, origins: FloatArray, directions: FloatArray, slot: IntArray) -> tuple:
-        """Return t, u, v of rays in the planes of triangles (Moller and Trumbore 1997); NaN where none."""
-        one, two = self._edges[slot, 0], self._edges[slot, 1]
-        across = np.cross(directions, two)
-        start = origins - self._first[slot]
-        turned = np.cross(start, one)
-        with np.errstate(divide="ignore", invalid="ignore"):
-            scale = 1 / np.einsum("ij,ij->i", one, across)
-            u = np.einsum("ij,ij->i", start, across) * scale
-            v = np.einsum("ij,ij->i", directions, turned) * scale
-            return np.einsum("ij,ij->i", two, turned) * scale, u, v
+        return _met(o, d, far, self._units, np.repeat(ray, _LEAF), slot)
 
 
 def _morton_order(centres: FloatArray) -> IntArray:
@@ -94,28 +79,65 @@ def _morton_order(centres: FloatArray) -> IntArray:
 
 
 def _boxes(corners: FloatArray, depth: int) -> list[FloatArray]:
-    """Return (nodes, 2, 3) lower and upper corners for each level, the root first."""
+    """Return (2, 3, nodes) lower and upper corners for each level, the root first."""
     groups = corners.reshape(1 << depth, -1, 3)
-    # Boxes are a little too big rather than too small by the last bit of an inverse.
+    # Rounding must not close a box before a triangle in its wall.
     margin = 1e-9 * np.abs(corners).max()
-    boxes = [np.stack([groups.min(axis=1) - margin, groups.max(axis=1) + margin], axis=1)]
-    while len(boxes[0]) > 1:
-        pairs = boxes[0].reshape(-1, 2, 2, 3)
-        boxes.insert(0, np.stack([pairs[:, :, 0].min(axis=1), pairs[:, :, 1].max(axis=1)], axis=1))
+    boxes = [np.stack([groups.min(axis=1).T - margin, groups.max(axis=1).T + margin])]
+    while boxes[0].shape[2] > 1:
+        (low, high), half = boxes[0], (3, -1, 2)
+        boxes.insert(0, np.stack([low.reshape(half).min(axis=2), high.reshape(half).max(axis=2)]))
     return boxes
 
 
+def _units(corners: FloatArray) -> FloatArray:
+    """
+    Return (3, 4, triangles) maps that turn each triangle into the unit triangle of the u, v plane.
+
+    Baldwin and Weber, *Fast Ray-Triangle Intersections by Coordinate Transformation*, 2016. A
+    triangle without area gets a map of zeros, which no ray meets.
+    """
+    one, two = corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0]
+    normal = np.cross(one, two)
+    square = np.einsum("ij,ij->i", normal, normal)
+    with np.errstate(divide="ignore", invalid="ignore"):
+        rows = np.stack([np.cross(two, normal), np.cross(normal, one), normal]) / square[:, None]
+    rows[:, ~(square > 0)] = 0
+    shift = -np.einsum("aij,ij->ai", rows, corners[:, 0])
+    return np.concatenate([np.moveaxis(rows, 2, 1), shift[:, None]], axis=1)
+
+
 def _entered(
-    origins: FloatArray,
-    inverse: FloatArray,
-    far: FloatArray,
-    boxes: FloatArray,
-    ray: IntArray,
-    node: IntArray,
-) -> tuple[IntArray, IntArray]:
-    """Return the pairs of rays and nodes whose boxes the rays enter (slabs, Kay and Kajiya 1986)."""
-    walls = (boxes[node] - origins[ray][:, None]) * inverse[ray][:, None]
-    enter = walls.min(axis=1).max(axis=1)
-    leave = walls.max(axis=1).min(axis=1)
-    inside = np.nonzero((enter <= leave) & (leave >= 0) & (enter <= far[ray]))[0]
-    return ray[inside], node[inside]
+    o: FloatArray, inverse: FloatArray, far: FloatArray, boxes: FloatArray, ray: IntArray, node: IntArray
+) -> IntArray:
+    """Return where rays enter the boxes paired with them (slabs: Kay and Kajiya 1986)."""
+    enter, leave = np.zeros(len(ray)), far[ray]
+    for axis in range(3):
+        start, slope = o[axis][ray], inverse[axis][ray]
+        one, two = (boxes[0, axis][node] - start) * slope, (boxes[1, axis][node] - start) * slope
+        enter = np.maximum(enter, np.minimum(one, two))
+        leave = np.minimum(leave, np.maximum(one, two))
+    return np.nonzero(enter <= leave)[0]
+
+
+def _met(
+    o: FloatArray, d: FloatArray, far: FloatArray, units: FloatArray, ray: IntArray, slot: IntArray
+) -> tuple[IntArray, IntArray, FloatArray, FloatArray, FloatArray]:
+    """Return the pairs of rays and triangles that meet: ray, slot, t, u, v."""
+    with np.errstate(divide="ignore", invalid="ignore"):
+        t = -_along(units[2], slot, o, ray, 1) / _along(units[2], slot, d, ray, 0)
+        inside = np.nonzero((t > 0) & (t <= far[ray]))[0]
+    ray, slot, t = ray[inside], slot[inside], t[inside]
+    place = o[:, ray] + t * d[:, ray]
+    u, v = (_along(row, slot, place, slice(None), 1) for row in units[:2])
+    inside = np.nonzero((u >= 0) & (v >= 0) & (u + v <= 1))[0]
+    return ray[inside], slot[inside], t[inside], u[inside], v[inside]
+
+
+def _along(
+    row: FloatArray, slot: IntArray, vectors: FloatArray, which: IntArray | slice, shift: int
+) -> FloatArray:
+    """Return one coordinate of points (shift 1) or directions (shift 0) in the triangles' own space."""
+    x, y, z = vectors
+    total = row[0][slot] * x[which] + row[1][slot] * y[which] + row[2][slot] * z[which]
+    return total + row[3][slot] if shift else total

@@ -19,7 +19,11 @@ def length(a: FloatArray) -> FloatArray:
 
 def normalised(a: FloatArray) -> FloatArray:
     """Return vectors at length 1; a null vector stays null."""
-    return np.divide(a, np.maximum(length(a), 1e-300)[:, None])
+    lengths = length(a)
+    lengths[lengths == 0] = 1
+    unit = a.astype(float)
+    unit /= lengths[:, None]
+    return unit
 
 
 def sphere(u: FloatArray, v: FloatArray) -> FloatArray:

@@ -79,6 +79,21 @@ class Paths(NamedTuple):
     density: FloatArray
     throughput: FloatArray
 
+    def only(self, rows: IntArray) -> Paths:
+        """Return some of them, in this order."""
+        if len(rows) == len(self.number):
+            return self
+        reach = None if self.reach is None else self.reach[rows]
+        # take() is two or three times as quick as an index, here and elsewhere.
+        return Paths(
+            self.number[rows],
+            self.origins.take(rows, axis=0),
+            self.directions.take(rows, axis=0),
+            reach,
+            self.density[rows],
+            self.throughput.take(rows, axis=0),
+        )
+
 
 def render(
     scene: RenderScene, report: Report, kernel: Callable[[FloatArray], Kernel] = best_kernel
@@ -116,7 +131,8 @@ def _tile(
         count = min(together, samples - first)
         draw = _Draw(sampler, len(pixels), first)
         paths = _from_camera(scene, draw, np.tile(pixels, count))
-        light = follow(world, paths, draw, depth)
+        with np.errstate(over="ignore"):  # what overflows is infinite, and refused by _check
+            light = follow(world, paths, draw, depth)
         total += light.reshape(count, len(pixels), -1).sum(axis=0)
         report((first + count) / samples)
     return total / samples
@@ -187,7 +203,8 @@ def _add_sampled(world: World, paths: Paths, places: Places, draw: Pair, found: 
     reflected = lobe(dot(places.normals, sample.directions))
     strength = sample.strength * reflected / (sample.density + sample.extended * reflected)
     rows = np.nonzero((strength > 0) & (dot(places.faces, sample.directions) > 0))[0]
-    rows = rows[~world.blocked(places.start[rows], sample.directions[rows], sample.reach[rows])]
+    start, directions = places.start.take(rows, axis=0), sample.directions.take(rows, axis=0)
+    rows = rows[~world.blocked(start, directions, sample.reach[rows])]
     _add(world, paths, rows, sample.row[rows], strength[rows], found)
 
 
@@ -195,8 +212,8 @@ def _add(
     world: World, paths: Paths, rows: IntArray, row: IntArray, strength: FloatArray, found: FloatArray
 ) -> None:
     """Add light to some paths: throughput times spectrum times strength, band by band."""
-    light = paths.throughput[rows]
-    light *= world.lights.spectra[row]
+    light = paths.throughput.take(rows, axis=0)
+    light *= world.lights.spectra.take(row, axis=0)
     light *= strength.astype(np.float32)[:, None]
     found[paths.number[rows]] += light
 
@@ -207,20 +224,17 @@ def _reflected(world: World, paths: Paths, hits: Hits) -> tuple[Paths, Hits]:
     material = world.surfaces.material[hits.triangle[rows]]
     bright = world.materials.reflects[material]
     rows, material = rows[bright], material[bright]
-    throughput = paths.throughput[rows]
-    throughput *= world.materials.reflectance[material]
-    origins, directions = paths.origins[rows], paths.directions[rows]
-    kept = Paths(paths.number[rows], origins, directions, None, paths.density[rows], throughput)
+    kept = paths.only(rows)
+    np.multiply(kept.throughput, world.materials.reflectance.take(material, axis=0), out=kept.throughput)
     return kept, hits.only(rows)
 
 
 def _scattered(paths: Paths, places: Places, draw: Pair) -> Paths:
     """Return paths that go on in random directions; those that would go through the surface end."""
     directions = scattered(places.normals, *draw)
-    rows = np.nonzero(dot(places.faces, directions) > 0)[0]
-    directions = directions[rows]
-    density = lobe(dot(places.normals[rows], directions))
-    return Paths(paths.number[rows], places.start[rows], directions, None, density, paths.throughput[rows])
+    density = lobe(dot(places.normals, directions))
+    onward = Paths(paths.number, places.start, directions, None, density, paths.throughput)
+    return onward.only(np.nonzero(dot(places.faces, directions) > 0)[0])
 
 
 def _depth(scene: RenderScene) -> int:
@@ -237,5 +251,5 @@ def _check(picture: FloatArray, film: Film) -> None:
         row, column = divmod(int(pixel), film.width)
         raise RenderingError(
             f"the radiance at row {row}, column {column} is {picture[pixel, band]:g} at"
-            f" {film.bands.centres[band]:g} nm, look for negative or boundless spectra in the scene"
+            f" {film.bands.centres[band]:g} nm, look for a light too bright or too near"
         )

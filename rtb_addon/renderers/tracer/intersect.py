@@ -103,14 +103,14 @@ class Surfaces:
 
     def places(self, hits: Hits, directions: FloatArray) -> Places:
         """Return where rays met surfaces; every one of them must have met one."""
-        rows = self._rows[hits.triangle]
+        rows = self._rows.take(hits.triangle, axis=0)
         u, v = hits.u[:, None], hits.v[:, None]
         points = rows[:, 0:3] + u * rows[:, 3:6] + v * rows[:, 6:9]
         side = np.where(dot(rows[:, 9:12], directions) < 0, 1.0, -1.0)[:, None]
         faces = side * rows[:, 9:12]
         normals = faces
         if self._smooth is not None:
-            a, b, c = np.moveaxis(self._smooth[hits.triangle], 1, 0)
+            a, b, c = np.moveaxis(self._smooth.take(hits.triangle, axis=0), 1, 0)
             normals = side * normalised(a + u * (b - a) + v * (c - a))
         return Places(points, faces, normals, points + faces * rows[:, 12:])
 

@@ -30,6 +30,8 @@ class Hits(NamedTuple):
 
     def only(self, rows: IntArray) -> Hits:
         """Return some of them."""
+        if len(rows) == len(self.u):
+            return self
         return Hits(self.triangle[rows], self.distance[rows], self.u[rows], self.v[rows])
 
 

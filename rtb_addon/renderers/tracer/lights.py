@@ -13,11 +13,12 @@ from typing import NamedTuple
 import numpy as np
 
 from ...scene.render_scene import IntArray, Light, RenderScene
-from ...spectra import FloatArray, Spectrum
+from ...spectra import FloatArray
 from .directions import dot
 from .intersect import Surfaces
 from .kernels import Hits
 from .lamps import Group, Lamps, Sample, Spheres, Suns, Triangles
+from .tables import table
 
 
 class Met(NamedTuple):
@@ -125,7 +126,7 @@ class Lights:
         """
         rows = np.concatenate([group.rows for group in self._groups])
         area = np.concatenate([group.powers for group in self._groups])
-        power = area * np.maximum(self.spectra.mean(axis=1, dtype=float)[rows], 0)
+        power = area * self.spectra.mean(axis=1, dtype=float)[rows]
         whole = np.bincount(rows, area, len(self.spectra))[rows]
         even = area / np.where(whole > 0, whole, 1) / max(len(np.unique(rows)), 1)
         chance = even + (power / power.sum() if power.sum() > 0 else even)
@@ -147,13 +148,7 @@ def _sorted_out(scene: RenderScene) -> tuple[list[Light], list[Light], list[Ligh
 
 def _spectra(scene: RenderScene, lights: Sequence[Light]) -> FloatArray:
     """Return the (rows, bands) spectra of emitting shapes, of lights and, last, of the environment."""
-    spectra = [shape.emission for shape in scene.shapes if shape.emission is not None]
-    spectra += [_intensity(light) for light in lights]
-    spectra.append(_intensity(scene.environment) if scene.environment else Spectrum.constant(0.0))
-    film = scene.film
-    return np.array([spectrum.in_bands(film.bands, film.band_kind) for spectrum in spectra], np.float32)
-
-
-def _intensity(light: Light) -> Spectrum:
-    value = light.parameters["intensity"]
-    return value if isinstance(value, Spectrum) else Spectrum.constant(float(value))  # type: ignore[arg-type]
+    named = [(f"shape {shape.id}", shape.emission) for shape in scene.shapes if shape.emission is not None]
+    named += [(f"light {light.id}", light.parameters["intensity"]) for light in lights]
+    named.append(("the environment", scene.environment.parameters["intensity"] if scene.environment else 0.0))
+    return table(named, scene.film)

@@ -13,8 +13,9 @@ from collections.abc import Iterable
 import numpy as np
 
 from ...scene.render_scene import Film, Material
-from ...spectra import FloatArray, Spectrum
+from ...spectra import FloatArray
 from .directions import normalised, sphere
+from .tables import table
 
 
 class Materials:
@@ -31,8 +32,8 @@ class Materials:
     def __init__(self, materials: Iterable[Material], film: Film) -> None:
         materials = list(materials)
         self.numbers = {material.id: number for number, material in enumerate(materials)}
-        rows = [_reflectance(material).in_bands(film.bands, film.band_kind) for material in materials]
-        self.reflectance = np.array(rows, np.float32).reshape(len(rows), len(film.bands))
+        named = [(f"material {one.id}", one.parameters["diffuseReflectance"]) for one in materials]
+        self.reflectance = table(named, film)
         self.reflects = self.reflectance.any(axis=1)
 
 
@@ -53,8 +54,3 @@ def scattered(normals: FloatArray, u: FloatArray, v: FloatArray) -> FloatArray:
     surface, is so distributed (Malley's method without the disc).
     """
     return normalised(normals + sphere(u, v))
-
-
-def _reflectance(material: Material) -> Spectrum:
-    value = material.parameters["diffuseReflectance"]
-    return value if isinstance(value, Spectrum) else Spectrum.constant(float(value))  # type: ignore[arg-type]

@@ -49,5 +49,5 @@ class Sampler:
 
     def pair(self, use: int, pixel: NDArray, sample: NDArray) -> tuple[FloatArray, FloatArray]:
         """Return two (n,) arrays in [0, 1): the numbers for some use of some samples of some pixels."""
-        u, v = self._points[use][:, sample] ^ self._scramble[use][:, pixel]
+        u, v = self._points[use].take(sample, axis=1) ^ self._scramble[use].take(pixel, axis=1)
         return u * 2.0**-32, v * 2.0**-32

@@ -1,0 +1,398 @@
+"""The internal tracer against closed forms: every light, both sides, every camera."""
+
+import re
+
+import numpy as np
+import pytest
+
+from rtb_addon.errors import Cancelled, RenderingError
+from rtb_addon.renderers.tracer import integrate
+from rtb_addon.renderers.tracer.bvh import Bvh
+from rtb_addon.renderers.tracer.kernels import Embree
+from rtb_addon.scene.render_scene import Camera, Shape
+from rtb_addon.spectra import Spectrum, Unit, library
+from tests.renderings.tracer_scenes import (
+    BANDS,
+    GREY,
+    SHAPE_OF_LIGHT,
+    SQUARE,
+    assert_within_noise,
+    cube,
+    facing,
+    lamp,
+    looking_down,
+    matrix,
+    matte,
+    per_band,
+    picture,
+    polygon,
+    reflected,
+    scene,
+    sky,
+)
+
+FLOOR = Shape("floor", SQUARE, matrix(), "grey")
+RADIANCE = per_band(SHAPE_OF_LIGHT, Unit.RADIANCE)
+
+
+def patch_under(light, folder, **more):
+    """Return the radiance per band of a spot of the floor."""
+    return picture(scene([FLOOR], [light], **more), folder)[0, 0]
+
+
+@pytest.mark.parametrize("distance", [0.5, 10, 210])
+@pytest.mark.parametrize("tilt", [0, 60, 85])
+def test_a_point_light_falls_off_with_the_square_and_the_cosine(tmp_path, distance, tilt):
+    angle = np.radians(tilt)
+    place = distance * np.array([np.sin(angle), 0, np.cos(angle)])
+    seen = patch_under(lamp("point", matrix(place)), tmp_path, camera=looking_down(1e-5))
+    np.testing.assert_allclose(seen, reflected(np.cos(angle) / distance**2), rtol=1e-4)
+
+
+def test_a_far_light_over_a_unit_square_is_right_to_a_ten_thousandth(tmp_path):
+    lit = scene(
+        [FLOOR], [lamp("point", matrix((0, 0, 210)))], camera=looking_down(0.5), size=(8, 8), samples=4
+    )
+    grid = (np.arange(200) + 0.5) / 200 - 0.5
+    x, y = np.meshgrid(grid, grid)
+    irradiance = (210 / (x**2 + y**2 + 210**2) ** 1.5).mean()
+    np.testing.assert_allclose(picture(lit, tmp_path).mean(axis=(0, 1)), reflected(irradiance), rtol=1e-6)
+
+
+def test_a_lamp_with_a_radius_lights_like_a_point_and_looks_like_a_ball(tmp_path):
+    def lit(seed):
+        ball = lamp("point", matrix((0, 0, 1)), radius=0.6)
+        return scene(
+            [FLOOR],
+            [ball],
+            camera=Camera("c", "orthographic", matrix((0, 0, 0.3)), (-1e-3, 1e-3, -1e-3, 1e-3)),
+            samples=256,
+            seed=seed,
+        )
+
+    assert_within_noise(lit, tmp_path, reflected(1.0))
+
+
+def test_a_lamp_with_a_radius_is_seen_as_bright_as_its_intensity_says(tmp_path):
+    ball = lamp("point", matrix((0, 0, 0)), radius=0.5)
+    camera = Camera("c", "orthographic", matrix((0, 0, 5)), (-1, 1, -1, 1))
+    seen = picture(scene([], [ball], camera=camera, size=(64, 64), samples=16), tmp_path)
+    np.testing.assert_allclose(seen[32, 32], np.array(SHAPE_OF_LIGHT) / (np.pi * 0.25), rtol=1e-6)
+    # The disc's area from jittered samples: the boundary crosses about 100 pixels of 1/1024 square metres.
+    covered = seen.mean(axis=(0, 1)) / seen[32, 32] * 4
+    np.testing.assert_allclose(covered, np.pi * 0.25, atol=4 * np.sqrt(100 / 16) / 2 / 1024)
+
+
+def test_a_ball_of_light_hides_what_is_behind_it(tmp_path):
+    ball, behind = (
+        lamp("point", matrix((0, 0, 2)), [0, 0, 0, 0], radius=0.5),
+        lamp("point", matrix((0, 0, 4))),
+    )
+    camera = Camera("c", "orthographic", facing((0, -1, 1), (0, 0, 0)), (-1e-3, 1e-3, -1e-3, 1e-3))
+    assert not picture(scene([FLOOR], [ball, behind], camera=camera, samples=64), tmp_path).any()
+
+
+@pytest.mark.parametrize("angle", [0.0, 60.0])
+@pytest.mark.parametrize("tilt", [0, 50])
+def test_the_sun_gives_its_irradiance_whatever_its_width(tmp_path, angle, tilt):
+    a = np.radians(tilt)
+    sun = lamp("directional", facing((np.sin(a), 0, np.cos(a)), (0, 0, 0)), angle=angle)
+
+    def lit(seed):
+        return scene([FLOOR], [sun], samples=64, seed=seed)
+
+    assert_within_noise(lit, tmp_path, reflected(np.cos(a)))
+
+
+def test_a_wide_sun_is_a_disc_in_the_sky(tmp_path):
+    sun = lamp("directional", matrix(), angle=60.0)
+    edge = np.tan(np.radians(30))
+    camera = Camera(
+        "c", "perspective", facing((0, 0, 0), (0, 0, 1)), (-2 * edge, 2 * edge, -2 * edge, 2 * edge)
+    )
+    seen = picture(scene([], [sun], camera=camera, size=(65, 65)), tmp_path)
+    across = (np.arange(65) + 0.5) / 65 * 4 - 2
+    r = np.hypot(*np.meshgrid(across, across))
+    disc = np.array(SHAPE_OF_LIGHT) / (np.pi * np.sin(np.radians(30)) ** 2)
+    np.testing.assert_allclose(seen[r < 0.95], np.broadcast_to(disc, seen[r < 0.95].shape), rtol=1e-6)
+    assert not seen[r > 1.05].any()
+
+
+@pytest.mark.parametrize("blend", [0.0, 0.3, 1.0])
+@pytest.mark.parametrize("angle", [0, 10, 20, 25, 29, 31, 80])
+@pytest.mark.parametrize("radius", [0.0, 1e-4])
+def test_a_spot_fades_by_blenders_smooth_step(tmp_path, angle, blend, radius):
+    a, edge = np.radians(angle), np.cos(np.radians(30))
+    away = np.array([np.sin(a), 0, np.cos(a)])
+    # The lamp straight above shines along -away, so the floor is seen from it under this angle.
+    spot = lamp("spot", facing((0, 0, 2), (0, 0, 2) - away), cone=60.0, blend=blend, radius=radius)
+    t = np.clip((np.cos(a) - edge) / ((1 - edge) * blend), 0, 1) if blend else float(np.cos(a) > edge)
+    camera = Camera("c", "orthographic", matrix((0, 0, 1)), (-1e-5, 1e-5, -1e-5, 1e-5))
+    seen = picture(scene([FLOOR], [spot], camera=camera, samples=16), tmp_path)[0, 0]
+    # A lamp of radius 0.1 mm at 2 m blurs the edge by 5e-5 in the angle, 1e-3 in the profile.
+    np.testing.assert_allclose(seen, reflected(t * t * (3 - 2 * t) / 4), rtol=1e-4, atol=1e-3 * (radius > 0))
+
+
+def seen_from(polygon_corners, place=(0, 0, 0), normal=(0, 0, 1)):
+    """Return irradiance per radiance of a polygon above the horizon (Lambert 1760)."""
+    ways = np.subtract(polygon_corners, place, dtype=float)
+    ways /= np.linalg.norm(ways, axis=1, keepdims=True)
+    after = np.roll(ways, -1, axis=0)
+    angles = np.arccos((ways * after).sum(axis=1))
+    across = np.cross(ways, after)
+    across /= np.linalg.norm(across, axis=1, keepdims=True)
+    return abs((angles * (across @ normal)).sum()) / 2
+
+
+@pytest.mark.parametrize("sides", [32, 1024])
+def test_a_luminous_disc_lights_as_its_polygon_says(tmp_path, sides):
+    turn = -2 * np.pi * np.arange(sides) / sides
+    corners = np.stack([0.5 * np.cos(turn), 0.5 * np.sin(turn), np.full(sides, 1.0)], axis=1)
+    irradiance = seen_from(np.float32(corners))
+    if sides == 1024:
+        assert irradiance == pytest.approx(np.pi * 0.25 / 1.25, rel=1e-5)
+    disc = Shape("disc", polygon(corners), matrix(), "black", RADIANCE)
+    camera = Camera("c", "orthographic", matrix((0, 0, 0.5)), (-1e-3, 1e-3, -1e-3, 1e-3))
+
+    def lit(seed):
+        return scene([FLOOR, disc], camera=camera, samples=256, seed=seed)
+
+    assert_within_noise(lit, tmp_path, reflected(irradiance))
+
+
+@pytest.mark.parametrize("scale", [1.0, 0.5])
+def test_a_scaled_shape_emits_over_its_area_in_the_world(tmp_path, scale):
+    to_world = matrix((0.3, 0, 1), (scale, 0, 0), (0, -scale, 0), (0, 0, -1))
+    corners = SQUARE.vertices * [scale, -scale, -1] + [0.3, 0, 1]
+    camera = Camera("c", "orthographic", matrix((0, 0, 0.5)), (-1e-3, 1e-3, -1e-3, 1e-3))
+
+    def lit(seed):
+        panel = Shape("panel", SQUARE, to_world, "black", RADIANCE)
+        return scene([FLOOR, panel], camera=camera, samples=256, seed=seed)
+
+    assert_within_noise(lit, tmp_path, reflected(seen_from(corners)))
+
+
+def test_two_lamps_of_different_kinds_add_up(tmp_path):
+    dim = lamp("point", matrix((0, 0, 2)), [0.02, 0.03, 0.01, 0.005])
+    sun = lamp("directional", matrix())
+
+    def lit(seed):
+        return scene([FLOOR], [dim, sun], samples=256, seed=seed)
+
+    assert_within_noise(lit, tmp_path, reflected(1 + 0.01 / 4))
+
+
+def test_surfaces_emit_on_the_side_of_their_normals_only(tmp_path):
+    panel = Shape("panel", SQUARE, matrix((0, 0, 1)), "black", RADIANCE)
+    from_above, from_below = (
+        looking_down(),
+        Camera("c", "orthographic", facing((0, 0, 0.5), (0, 0, 1)), (-0.1, 0.1, -0.1, 0.1)),
+    )
+    np.testing.assert_allclose(picture(scene([panel], camera=from_above), tmp_path)[0, 0], SHAPE_OF_LIGHT)
+    assert not picture(scene([panel], camera=from_below), tmp_path).any()
+    under = Camera("c", "orthographic", matrix((0, 0, 0.5)), (-1e-3, 1e-3, -1e-3, 1e-3))
+    assert not picture(scene([FLOOR, panel], camera=under, samples=64), tmp_path).any()
+
+
+def test_matte_surfaces_reflect_on_both_sides(tmp_path):
+    camera = Camera("c", "orthographic", facing((0, 0, -5), (0, 0, 0)), (-1e-3, 1e-3, -1e-3, 1e-3))
+    seen = picture(scene([FLOOR], [lamp("point", matrix((0, 0, -2)))], camera=camera), tmp_path)[0, 0]
+    np.testing.assert_allclose(seen, reflected(0.25), rtol=1e-6)
+    assert not picture(scene([FLOOR], [lamp("point", matrix((0, 0, 2)))], camera=camera), tmp_path).any()
+
+
+def test_a_mirrored_flat_shape_emits_where_its_corners_turn_left(tmp_path):
+    mirrored = Shape("panel", SQUARE, matrix((0, 0, 1), x=(-1, 0, 0)), "black", RADIANCE)
+    assert not picture(scene([mirrored]), tmp_path).any()
+    flipped_through = Shape("panel", SQUARE, matrix((0, 0, 1), z=(0, 0, -1)), "black", RADIANCE)
+    np.testing.assert_allclose(picture(scene([flipped_through]), tmp_path)[0, 0], SHAPE_OF_LIGHT)
+
+
+@pytest.mark.parametrize("sign", [1, -1])
+def test_a_mirrored_smooth_shape_keeps_its_outside(tmp_path, sign):
+    ball = Shape("ball", cube(normals=True), matrix(x=(sign, 0, 0)), "black", RADIANCE)
+    np.testing.assert_allclose(picture(scene([ball]), tmp_path)[0, 0], SHAPE_OF_LIGHT)
+
+
+def test_no_light_leaks_through_a_coarse_smooth_ball(tmp_path):
+    ball = Shape("ball", cube(normals=True), matrix(), "grey")
+    camera = Camera("c", "perspective", facing((4, 3, 5), (0, 0, 0)), (-0.4, 0.4, -0.4, 0.4))
+    inside = scene(
+        [ball], [lamp("point", matrix((0.5, 0, 0)))], camera=camera, depth=6, samples=16, size=(16, 16)
+    )
+    assert not picture(inside, tmp_path).any()
+
+
+@pytest.mark.parametrize("place", [(0, 0, 0), (5e4, -2e4, 1e4)])
+def test_a_wide_floor_under_a_grazing_sun_does_not_shade_itself(tmp_path, place):
+    wide = Shape("floor", SQUARE, matrix(place, (100, 0, 0), (0, 100, 0)), "grey")
+    a = np.radians(89.5)
+    sun = lamp("directional", facing((np.sin(a), 0, np.cos(a)), (0, 0, 0)))
+    camera = Camera("c", "orthographic", matrix(np.add(place, (0, 0, 5))), (-90, 90, -90, 90))
+    seen = picture(scene([wide], [sun], camera=camera, size=(32, 32)), tmp_path)
+    np.testing.assert_allclose(seen, np.broadcast_to(reflected(np.cos(a)), seen.shape), rtol=1e-5)
+
+
+@pytest.mark.parametrize("depth", [1, 2, 3, 4])
+def test_a_white_convex_body_vanishes_before_a_white_sky(tmp_path, depth):
+    body = Shape("body", cube(), matrix(), "white")
+    camera = Camera("c", "perspective", facing((4, 3, 5), (0, 0, 0)), (-0.5, 0.5, -0.5, 0.5))
+    white = scene(
+        [body],
+        materials=[matte("white", Spectrum.constant(1.0))],
+        camera=camera,
+        depth=depth,
+        samples=4,
+        size=(8, 8),
+        environment=sky(3.0),
+    )
+    seen = picture(white, tmp_path)
+    if depth == 1:
+        assert seen[4, 4].max() == 0
+        assert seen[0, 0].min() == 3
+    else:
+        np.testing.assert_allclose(seen, 3.0, rtol=1e-6)
+
+
+@pytest.mark.parametrize("depth", [1, 2, 5])
+def test_light_in_a_closed_luminous_box_is_a_geometric_series(tmp_path, depth):
+    room = Shape("room", cube(inwards=True), matrix(), "grey", RADIANCE)
+    camera = Camera("c", "perspective", facing((0.3, 0.2, 0.1), (-1, -1, -1)), (-0.5, 0.5, -0.5, 0.5))
+    series = sum(GREY.in_bands(BANDS) ** bounce for bounce in range(depth))
+
+    def lit(seed):
+        return scene([room], camera=camera, depth=depth, samples=64, size=(8, 8), seed=seed)
+
+    assert_within_noise(lit, tmp_path, np.array(SHAPE_OF_LIGHT) * series)
+
+
+def test_a_spiky_reflectance_under_daylight_mixes_no_bands(tmp_path):
+    spike = Spectrum.of([300, 490, 500, 510, 800], [0, 0, 0.9, 0, 0])
+    daylight = library.find("D65")
+    sun = lamp("directional", matrix())
+    sun.parameters["intensity"] = daylight
+    seen = picture(scene([FLOOR], [sun], materials=[matte("grey", spike)]), tmp_path)[0, 0]
+    assert seen[[0, 2, 3]].tolist() == [0, 0, 0]
+    # The averages of both over the band, then their product: 0.9 over a triangle 20 nm wide in 100 nm.
+    mean = daylight.at(450 + (np.arange(10000) + 0.5) / 100).mean()
+    assert seen[1] == pytest.approx(0.09 * mean / np.pi, rel=1e-6)
+
+
+def luminous_square(projection, window, to_world, size=(8, 8), **more):
+    """Return a picture of a luminous square metre around the origin, 1 where it is seen."""
+    mesh = polygon([(-0.5, -0.5, 0), (0.5, -0.5, 0), (0.5, 0.5, 0), (-0.5, 0.5, 0)])
+    glow = Shape("glow", mesh, matrix(), "black", per_band([1, 1, 1, 1], Unit.RADIANCE))
+    return scene([glow], camera=Camera("c", projection, to_world, window, **more), size=size, samples=4)
+
+
+@pytest.mark.parametrize("projection", ["orthographic", "perspective"])
+def test_edges_land_on_the_pixels_that_the_window_says(tmp_path, projection):
+    # The square's edges fall on edges of pixels: columns 1 to 4 and rows 3 to 6 of eight.
+    window = np.array([-0.75, 1.25, -0.75, 1.25])
+    if projection == "perspective":
+        window = window / 2
+    seen = picture(luminous_square(projection, tuple(window), matrix((0, 0, 2))), tmp_path)[..., 0]
+    expected = np.zeros((8, 8))
+    expected[3:7, 1:5] = 1
+    np.testing.assert_array_equal(seen, expected)
+
+
+def test_a_mirrored_camera_mirrors_the_picture(tmp_path):
+    window = (-1, 1, -1, 1)
+    straight = picture(luminous_square("orthographic", window, matrix((0.25, 0, 2))), tmp_path)
+    mirrored = picture(luminous_square("orthographic", window, matrix((0.25, 0, 2), x=(-1, 0, 0))), tmp_path)
+    assert straight[2:6, 1:5].min() == 1
+    np.testing.assert_array_equal(mirrored, straight[:, ::-1])
+
+
+@pytest.mark.parametrize("clip", [(0.1, 1.9), (2.1, 9.0)])
+def test_what_lies_beyond_the_camera_s_clip_is_not_seen(tmp_path, clip):
+    for projection in ("orthographic", "perspective"):
+        window = (-0.1, 0.1, -0.1, 0.1)
+        assert not picture(luminous_square(projection, window, matrix((0, 0, 2)), clip=clip), tmp_path).any()
+        seen = picture(luminous_square(projection, window, matrix((0, 0, 2)), clip=(1.9, 2.1)), tmp_path)
+        assert seen.min() == 1
+
+
+def busy_room(**more):
+    """Return a room with a smooth and a flat body, and a lamp of every kind."""
+    room = Shape("room", cube(inwards=True), matrix(), "grey")
+    flat = Shape("flat", cube(), matrix((-0.4, 0.1, -0.7), (0.3, 0.1, 0), (-0.1, 0.3, 0), (0, 0, 0.3)), "red")
+    smooth = Shape(
+        "smooth", cube(normals=True), matrix((0.5, 0.4, -0.2), (0.2, 0, 0), (0, 0.2, 0), (0, 0, 0.2)), "grey"
+    )
+    panel = Shape(
+        "panel", SQUARE, matrix((0, 0, 0.95), (0.3, 0, 0), (0, -0.3, 0), (0, 0, -1)), "black", RADIANCE
+    )
+    lights = [
+        lamp("point", matrix((0.5, -0.5, 0.5)), radius=0.1),
+        lamp("point", matrix((-0.5, -0.5, 0.5)), radius=0.0),
+        lamp("spot", facing((0, 0, 0.9), (0.4, 0.4, -1)), blend=0.5),
+    ]
+    materials = [
+        matte("grey"),
+        matte("red", per_band([0.1, 0.2, 0.9, 0.8])),
+        matte("black", Spectrum.constant(0.0)),
+    ]
+    camera = Camera("c", "perspective", facing((0, -0.95, 0), (0, 1, -0.3)), (-1, 1, -1, 1))
+    options = {"materials": materials, "camera": camera, "depth": 5, "samples": 3, "size": (24, 16), **more}
+    return scene([room, flat, smooth, panel], lights, **options)
+
+
+def test_the_same_scene_gives_the_same_bits_and_another_seed_others(tmp_path):
+    first = picture(busy_room(), tmp_path)
+    np.testing.assert_array_equal(picture(busy_room(), tmp_path), first)
+    assert (picture(busy_room(seed=1), tmp_path) != first).any()
+
+
+def test_numpy_and_embree_give_the_same_picture():
+    numpys, name = integrate.render(busy_room(), lambda fraction: None, Bvh)
+    embrees, other = integrate.render(busy_room(), lambda fraction: None, Embree)
+    assert (name, other.split()[0]) == ("numpy", "embreex")
+    np.testing.assert_allclose(numpys, embrees, atol=1e-6 * embrees.max())
+
+
+@pytest.mark.parametrize("kernel", [Bvh, Embree])
+def test_an_empty_scene_shows_its_sky(kernel):
+    seen, _ = integrate.render(scene([], environment=sky(2.0)), lambda fraction: None, kernel)
+    np.testing.assert_array_equal(seen, 2.0)
+
+
+def test_progress_rises_to_one_and_a_raised_cancel_stops(tmp_path):
+    heard = []
+    tall = busy_room(size=(80, 80), samples=2, depth=2)
+    picture(tall, tmp_path, heard.append)
+    assert heard == sorted(heard)
+    assert (heard[0], heard[-1]) == (0.0, 1.0)
+    assert len(heard) >= 4
+
+    def stop(fraction):
+        if fraction > 0.3:
+            raise Cancelled
+
+    with pytest.raises(Cancelled):
+        picture(tall, tmp_path, stop)
+
+
+def test_tiles_do_not_show(tmp_path, monkeypatch):
+    whole = scene([FLOOR], [lamp("point", matrix((0, 0, 2)))], camera=looking_down(0.9), size=(8, 8))
+    expected = picture(whole, tmp_path)
+    monkeypatch.setattr(integrate, "WAVE", 7)
+    # Pixels differ by where in them their one sample lies: by 1/8 of the picture's gradient at most.
+    np.testing.assert_allclose(picture(whole, tmp_path), expected, rtol=0.12)
+
+
+@pytest.mark.parametrize("value", [-1.0, 1e39])
+def test_a_lamp_with_numbers_that_cannot_be_is_named(tmp_path, value):
+    lit = scene([FLOOR], [lamp("directional", matrix(), [1, 1, value, 1])])
+    with pytest.raises(
+        RenderingError, match=re.escape(f"light directional lamp is {value:g} at 600 nm, give")
+    ):
+        picture(lit, tmp_path)
+
+
+def test_radiance_that_is_no_number_is_refused_in_one_sentence(tmp_path):
+    near = lamp("point", matrix((0, 0, 1e-5)), [1, 9e29, 1, 1])
+    with pytest.raises(RenderingError, match=r"row 0, column 0 is inf at 500 nm"):
+        picture(scene([FLOOR], [near], camera=looking_down(1e-12)), tmp_path)
