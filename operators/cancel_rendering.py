@@ -19,5 +19,6 @@ class RTB_OT_cancel_rendering(bpy.types.Operator):
         return running.batch is not None
 
     def execute(self, context):
-        running.batch.cancel()
+        if running.batch is not None:
+            running.batch.cancel()
         return {"FINISHED"}

@@ -62,6 +62,7 @@ class ChildBatch:
             return
         self.cancelled = True
         self._deadline = time.monotonic() + GRACE
+        assert self._child.stdin is not None
         with suppress(OSError):
             self._child.stdin.close()
 

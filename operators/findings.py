@@ -4,6 +4,8 @@ from __future__ import annotations
 
 from pathlib import Path
 
+import bpy
+
 errors: list[str] = []
 remarks: list[str] = []
 
@@ -14,12 +16,12 @@ def clear() -> None:
     remarks.clear()
 
 
-def exported(recipe) -> Path:
+def exported(recipe, folder: str = "") -> Path:
     """Save a scene's recipe and return its folder; what had to be assumed becomes remarks."""
     clear()
-    folder = recipe.save()
+    saved = recipe.save(Path(bpy.path.abspath(folder)) if folder else None)
     remarks.extend(recipe.report)
-    return folder
+    return saved
 
 
 def refuse(operator, error: Exception) -> set[str]:

@@ -19,16 +19,19 @@ def load(file: Path) -> bpy.types.Image:
 
 
 def editor(context) -> bpy.types.Area | None:
-    """Return the Image Editor that shows a montage already, else one that is free to, else None."""
+    """Return the Image Editor that shows a montage already, else an empty one, else the largest."""
     areas = [area for window in context.window_manager.windows for area in window.screen.areas]
-    return min((area for area in areas if _rank(area) is not None), key=_rank, default=None)
+    return min(filter(_is_free, areas), key=_rank, default=None)
 
 
-def _rank(area: bpy.types.Area) -> tuple[int, int] | None:
-    if area.type != "IMAGE_EDITOR" or area.ui_type != "IMAGE_EDITOR" or area.spaces.active.use_image_pin:
-        return None
+def _is_free(area: bpy.types.Area) -> bool:
+    """Whether an area is an Image Editor, not one for UVs, whose picture nobody has pinned."""
+    return area.type == area.ui_type == "IMAGE_EDITOR" and not area.spaces.active.use_image_pin
+
+
+def _rank(area: bpy.types.Area) -> tuple[int, int]:
     image = area.spaces.active.image
-    suits = 0 if image is not None and image.get(MARK) else 1 if image is None else 2
+    suits = 1 if image is None else 0 if image.get(MARK) else 2
     return suits, -area.width * area.height
 
 

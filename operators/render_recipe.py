@@ -25,12 +25,12 @@ class RTB_OT_render_recipe(bpy.types.Operator):
             folder = findings.exported(read_recipe(context.scene))
         except RecipeError as error:
             return findings.refuse(self, error)
-        running.start(folder)
-        return self._followed() if bpy.app.background else {"FINISHED"}
+        batch = running.start(folder)
+        return self._followed(batch) if bpy.app.background else {"FINISHED"}
 
-    def _followed(self):
+    def _followed(self, batch):
         """Wait for the batch, as there is no window to keep alive."""
-        batch = running.follow_to_the_end()
+        running.follow_to_the_end(batch)
         if findings.errors:
             self.report({"ERROR"}, "; ".join(findings.errors))
         return {"CANCELLED"} if batch.cancelled or findings.errors else {"FINISHED"}

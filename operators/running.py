@@ -27,14 +27,12 @@ def start(folder: Path) -> ChildBatch:
     return batch
 
 
-def follow_to_the_end() -> ChildBatch:
-    """Wait for the batch and return it."""
-    ending = batch
+def follow_to_the_end(started: ChildBatch) -> None:
+    """Wait for a batch that was started."""
     try:
-        ending.follow_to_the_end()
+        started.follow_to_the_end()
     finally:
-        _conclude()
-    return ending
+        _conclude(started)
 
 
 def stop() -> None:
@@ -55,14 +53,14 @@ def _look() -> float | None:
         _redraw()
     if not batch.ended:
         return INTERVAL
-    _conclude()
+    _conclude(batch)
     return None
 
 
-def _conclude() -> None:
-    """Tell how the batch ended and show its montage, in an Image Editor where one is open."""
+def _conclude(ended: ChildBatch) -> None:
+    """Tell how a batch ended and show its montage, in an Image Editor where one is open."""
     global batch
-    ended, batch = batch, None
+    batch = None
     findings.errors.extend(ended.failures)
     findings.remarks.extend(text for text in ended.warnings if text not in findings.remarks)
     if ended.montage is not None and ended.montage.is_file():

@@ -2,7 +2,7 @@
 
 import bpy
 
-from ..rtb_addon.blender import recipe_folder
+from ..rtb_addon.blender.folders import recipe_folder, recipe_name
 from ..rtb_addon.errors import RecipeError
 from ..rtb_addon.recipe import Recipe
 from . import findings, montages
@@ -29,8 +29,7 @@ class RTB_OT_show_montage(bpy.types.Operator):
 def montage_file(scene):
     """Return the picture that the last batch of a scene's recipe left."""
     folder = recipe_folder(scene)
-    recipe = Recipe.load(folder)
-    file = recipe.montage_file(recipe.options.renderer)
+    file = Recipe(folder, recipe_name(scene)).montage_file(scene.rtb.renderer)
     if not file.is_file():
         raise RecipeError(f"there is no montage in {folder} yet, press Render Recipe")
     return file

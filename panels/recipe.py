@@ -23,7 +23,7 @@ class RTB_PT_recipe(bpy.types.Panel):
         layout = self.layout
         layout.use_property_split = True
         layout.use_property_decorate = False
-        draw_options(layout, context.scene)
+        draw_options(layout, context.scene.rtb)
         layout.separator()
         draw_run(layout)
         width = context.region.width
@@ -31,9 +31,9 @@ class RTB_PT_recipe(bpy.types.Panel):
         draw_sentences(layout, findings.remarks, width)
 
 
-def draw_options(layout, scene) -> None:
+def draw_options(layout, settings) -> None:
     """Draw where the recipe goes and how it is rendered."""
-    settings = scene.rtb
+    layout.prop(settings, "name")
     layout.prop(settings, "folder")
     layout.prop(settings, "renderer")
     column = layout.column(align=True)
@@ -53,3 +53,37 @@ def draw_run(layout) -> None:
     column = layout.column(align=True)
     column.operator(RTB_OT_show_montage.bl_idname, icon="IMAGE_DATA")
     column.operator(RTB_OT_export_recipe.bl_idname, icon="EXPORT")
+
+
+class Details:
+    """A closed part of the recipe's panel."""
+
+    bl_space_type = "VIEW_3D"
+    bl_region_type = "UI"
+    bl_category = "RenderToolbox"
+    bl_parent_id = RTB_PT_recipe.bl_idname
+    bl_options = {"DEFAULT_CLOSED"}
+
+    def draw(self, context):
+        self.layout.use_property_split = True
+        self.layout.use_property_decorate = False
+        for names in self.properties:
+            column = self.layout.column(align=True)
+            for name in names:
+                column.prop(context.scene.rtb, name)
+
+
+class RTB_PT_light_paths(Details, bpy.types.Panel):
+    """How far light is followed, and in which bands"""
+
+    bl_idname = "RTB_PT_light_paths"
+    bl_label = "Light Paths and Bands"
+    properties = (("integrator", "depth"), ("seed",), ("bands_start", "bands_step", "bands_count"))
+
+
+class RTB_PT_montage(Details, bpy.types.Panel):
+    """How the renderings become one picture"""
+
+    bl_idname = "RTB_PT_montage"
+    bl_label = "Montage"
+    properties = (("montage_columns", "montage_fill"),)

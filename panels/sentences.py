@@ -26,7 +26,8 @@ def draw_sentences(layout, sentences: Sequence[str], width: int, alert: bool = F
 
 def draw_sentence(layout, sentence: str, width: int, icon: str) -> None:
     """Draw one sentence on as many lines as it takes, an icon at the first."""
-    letters = max(int((width / bpy.context.preferences.system.ui_scale - MARGIN) / LETTER), 12)
+    scale = bpy.context.preferences.system.ui_scale or 1.0  # 0 where there is no window
+    letters = max(int((width / scale - MARGIN) / LETTER), 12)
     column = layout.column(align=True)
     column.scale_y = 0.8
     for number, line in enumerate(textwrap.wrap(sentence, letters)):

@@ -1,0 +1,17 @@
+"""Properties > Data of a lamp: the spectrum of its light. How much of it stays in Blender's own panel."""
+
+import bpy
+
+from .spectra import SpectralPanel
+
+
+class RTB_PT_spectral_light(SpectralPanel, bpy.types.Panel):
+    """The spectrum of the active lamp"""
+
+    bl_idname = "RTB_PT_spectral_light"
+    bl_label = "Spectral Light"
+    bl_context = "data"
+    thing = "light"
+
+    def draw_spectra(self, layout, settings):
+        layout.prop(settings, "spectrum")

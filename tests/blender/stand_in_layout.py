@@ -1,0 +1,47 @@
+"""A layout that draws nothing and notes what it is asked to draw, for panels without a window."""
+
+from __future__ import annotations
+
+import bpy
+
+
+class RecordingLayout:
+    """
+    Stands in for a panel's layout; complains about properties and operators that are not there.
+
+    Parameters
+    ----------
+    drawn : one (kind, name) for everything drawn, shared by all rows and columns of a layout
+    """
+
+    def __init__(self, drawn: list | None = None) -> None:
+        self.drawn = [] if drawn is None else drawn
+
+    def row(self, **_):
+        return RecordingLayout(self.drawn)
+
+    column = box = row
+
+    def prop(self, owner, name: str, **_) -> None:
+        assert name in owner.bl_rna.properties, f"{owner} has no {name}"
+        self.drawn.append(("prop", name))
+
+    def operator(self, name: str, text: str | None = None, **_):
+        operator = getattr(getattr(bpy.ops, name.split(".")[0]), name.split(".")[1])
+        operator.get_rna_type()  # raises for an operator that is not there
+        self.drawn.append(("operator", name))
+        return type("Properties", (), {})()
+
+    def label(self, text: str = "", **_) -> None:
+        self.drawn.append(("label", text))
+
+    def progress(self, factor: float = 0.0, text: str = "", **_) -> None:
+        assert 0.0 <= factor <= 1.0
+        self.drawn.append(("progress", text))
+
+    def separator(self, **_) -> None:
+        self.drawn.append(("separator", ""))
+
+    def names(self, kind: str) -> list[str]:
+        """Return the names of what was drawn of a kind."""
+        return [name for drawn, name in self.drawn if drawn == kind]

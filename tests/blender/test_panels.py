@@ -1,0 +1,122 @@
+"""What panels draw, without a window: a stand-in notes it."""
+
+import sys
+from types import SimpleNamespace
+
+import bpy
+import pytest
+
+from tests.blender.stand_in_layout import RecordingLayout
+
+
+@pytest.fixture
+def panel(extension):
+    """Return a function that lets a panel draw into a stand-in and returns what was drawn."""
+    bpy.ops.wm.read_homefile(use_factory_startup=True)
+
+    def drawn(module: str, name: str, **context) -> RecordingLayout:
+        kind = getattr(sys.modules[f"{extension}.panels.{module}"], name)
+        layout = RecordingLayout()
+        attributes = {key: getattr(kind, key) for base in kind.__mro__ for key in vars(base) if key[0] != "_"}
+        stand_in = type(name, (), {**attributes, "layout": layout})()
+        seen = SimpleNamespace(scene=bpy.context.scene, region=SimpleNamespace(width=250), **context)
+        assert not hasattr(kind, "poll") or kind.poll(seen)
+        stand_in.draw(seen)
+        return layout
+
+    return drawn
+
+
+@pytest.fixture
+def running(extension):
+    """The module that knows the batch; nothing runs and nothing was found."""
+    module = sys.modules[f"{extension}.operators.running"]
+    findings = sys.modules[f"{extension}.operators.findings"]
+    findings.clear()
+    yield SimpleNamespace(module=module, findings=findings)
+    module.batch = None
+    findings.clear()
+
+
+def batch(**said):
+    """Return what stands for a batch that is under way."""
+    usual = {"progress": 0.25, "finished": 3, "total": 12, "remaining": 74.6, "cancelled": False}
+    return SimpleNamespace(**{**usual, **said})
+
+
+def test_the_recipes_panel_offers_what_can_be_done(panel, running):
+    layout = panel("recipe", "RTB_PT_recipe")
+    assert layout.names("operator") == ["rtb.render_recipe", "rtb.show_montage", "rtb.export_recipe"]
+    assert layout.names("prop") == ["name", "folder", "renderer", "width", "height", "samples"]
+
+
+@pytest.mark.parametrize(
+    ("said", "text"),
+    [
+        ({}, "3/12 · 1:15 left"),
+        ({"remaining": None}, "3/12"),
+        ({"remaining": 3725.0}, "3/12 · 1:02:05 left"),
+        ({"total": 0}, "Starting…"),
+        ({"cancelled": True}, "Stopping…"),
+    ],
+)
+def test_a_running_batch_shows_how_far_it_is_and_can_be_cancelled(panel, running, said, text):
+    running.module.batch = batch(**said)
+    layout = panel("recipe", "RTB_PT_recipe")
+    assert layout.names("progress") == [text]
+    assert layout.names("operator")[0] == "rtb.cancel_rendering"
+    assert "rtb.render_recipe" not in layout.names("operator")
+
+
+def test_a_sentence_is_drawn_whole_on_lines_that_fit(panel, running):
+    sentence = "conditions.txt:4: 3 values for 4 variables (imageName, light, paint, gloss)"
+    running.findings.errors.append(sentence)
+    lines = panel("recipe", "RTB_PT_recipe").names("label")
+    assert " ".join(lines) == sentence
+    assert max(map(len, lines)) < 32
+
+
+def test_many_errors_do_not_push_the_panel_off_the_screen(panel, running):
+    running.findings.errors.extend(f"condition {number} failed" for number in range(40))
+    labels = panel("recipe", "RTB_PT_recipe").names("label")
+    assert len(labels) == 7
+    assert "34 more" in labels[-1]
+
+
+@pytest.mark.parametrize("name", ["RTB_PT_light_paths", "RTB_PT_montage"])
+def test_the_recipes_details_draw_properties_that_exist(panel, running, name):
+    assert panel("recipe", name).names("prop")
+
+
+SPECTRAL = [
+    ("spectral_material", "RTB_PT_spectral_material", "material", ["model", "reflectance"]),
+    ("spectral_light", "RTB_PT_spectral_light", "light", ["spectrum"]),
+    ("spectral_world", "RTB_PT_spectral_world", "world", ["spectrum", "amount"]),
+]
+
+
+def thing_of(kind: str):
+    """Return the default scene's material, light or world."""
+    return {
+        "material": bpy.data.materials["Material"],
+        "light": bpy.data.lights["Light"],
+        "world": bpy.context.scene.world,
+    }[kind]
+
+
+@pytest.mark.parametrize(("module", "name", "kind", "properties"), SPECTRAL)
+def test_a_thing_without_spectra_shows_one_button(panel, module, name, kind, properties):
+    layout = panel(module, name, **{kind: thing_of(kind)})
+    assert layout.drawn == [("operator", "rtb.use_spectra")]
+
+
+@pytest.mark.parametrize(("module", "name", "kind", "properties"), SPECTRAL)
+def test_a_thing_with_spectra_shows_them(panel, module, name, kind, properties):
+    thing_of(kind).rtb.use_spectra = True
+    assert panel(module, name, **{kind: thing_of(kind)}).names("prop") == properties
+
+
+def test_a_mesh_shows_what_it_sends_out(panel):
+    cube = bpy.data.objects["Cube"]
+    layout = panel("spectral_emission", "RTB_PT_spectral_emission", object=cube, mesh=cube.data)
+    assert layout.names("prop") == ["spectrum", "emission", "amount"]

@@ -1,0 +1,102 @@
+"""A whole experiment in a real window, by simulated mouse and keys; photographs stay in build/screenshots."""
+
+import time
+from pathlib import Path
+
+import pytest
+
+PICTURES = Path(__file__).resolve().parents[2] / "build/screenshots"
+PANELS = (
+    "material-untagged",
+    "material",
+    "light",
+    "world",
+    "recipe",
+    "rendering",
+    "montage",
+    "error",
+)
+
+
+@pytest.fixture(scope="module")
+def report(blender, tmp_path_factory):
+    """What was found out in the window."""
+    folder = tmp_path_factory.mktemp("window")
+    return blender.run_script(
+        "in_window.py", folder / "report.json", str(folder / "home"), str(PICTURES), window=True
+    )
+
+
+@pytest.mark.parametrize("name", PANELS)
+def test_every_photograph_shows_something(report, name):
+    assert (PICTURES / f"{name}.png").is_file()
+    assert report["colours"][name] > 500
+
+
+def test_use_spectra_takes_the_materials_own_colour(report):
+    used, reflectance = report["use spectra pressed"]
+    assert used
+    assert reflectance
+
+
+def test_a_click_renders_in_another_process_and_shows_the_montage(report):
+    assert report["started by click"]
+    assert report["child"]
+    assert report["errors after rendering"] == []
+    name, size = report["montage"]
+    assert name.endswith(".png")
+    assert size == [3 * 80, 2 * 60]
+
+
+def test_blender_stays_usable_while_a_batch_renders(report):
+    assert report["longest of ours"]["take"] < 0.05
+    assert report["longest of ours"]["draw"] < 0.05
+    # What remains is Blender drawing in software, which takes as long without a batch.
+    assert report["rendering"]["median"] < 0.05
+    assert report["rendering"]["longest"] < report["drawing"]["longest"] + 0.5
+
+
+def test_blenders_own_process_stays_free_of_what_renderers_need(report):
+    assert report["heavy modules"] == []
+
+
+@pytest.mark.parametrize("how", ["Esc over VIEW_3D", "Esc over IMAGE_EDITOR", "Cancel button"])
+def test_a_batch_stops_within_a_second(report, how):
+    assert report["stopped"][how] < 1.0
+    assert report["left"][how] == []
+
+
+def test_undo_does_not_touch_what_is_being_rendered(report):
+    assert report["undo leaves the batch alone"]
+
+
+@pytest.mark.parametrize("how", ["opening a file", "disabling"])
+def test_no_process_is_left_when_the_batchs_file_or_the_extension_goes(report, how):
+    assert report["left"][how] == []
+
+
+def test_no_finished_cube_is_lost_when_batches_are_stopped(report):
+    count, kept = report["cubes kept"]
+    assert count == 6
+    assert kept
+
+
+def test_quitting_blender_leaves_no_process(report):
+    running = report["when quitting"]
+    assert running
+    deadline = time.monotonic() + 2
+    while (left := [pid for pid in running if _alive(pid)]) and time.monotonic() < deadline:
+        time.sleep(0.05)
+    assert left == []
+
+
+def test_what_is_wrong_is_said_in_one_sentence(report):
+    assert "camera" in report["refused"]
+
+
+def _alive(pid: int) -> bool:
+    try:
+        state = Path(f"/proc/{pid}/stat").read_text().rpartition(")")[2].split()[0]
+    except OSError:
+        return False
+    return state != "Z"
