@@ -10,7 +10,7 @@ import numpy as np
 from ...scene.render_scene import Camera, Film
 from ...spectra import FloatArray
 from .names import Names
-from .spectrum_xml import element
+from .spectrum_xml import comment, element
 
 # Mitsuba's cameras and spots look along +Z, ours along -Z; half a turn about Y takes one to the other.
 HALF_TURN = np.diag([-1.0, 1.0, -1.0, 1.0])
@@ -44,8 +44,8 @@ def _perspective(camera: Camera, film: Film, place: str) -> tuple[Xml.Element, l
         id=place,
         fov=math.degrees(2 * math.atan(width / 2)),
         fov_axis="x",
-        principal_point_offset_x=-(left + right) / 2 / width,
-        principal_point_offset_y=(bottom + top) / 2 / square,
+        principal_point_offset_x=(left + right) / 2 / width,
+        principal_point_offset_y=-(bottom + top) / 2 / square,
         near_clip=float(camera.clip[0]),
         far_clip=float(camera.clip[1]),
     )
@@ -56,8 +56,8 @@ def _perspective(camera: Camera, film: Film, place: str) -> tuple[Xml.Element, l
 def _stretch(stretch: float) -> list[Xml.Element]:
     if abs(stretch - 1) < 1e-9:
         return []
-    said = " The pixels are not square, which stock Mitsuba cannot do: it shows another height of the view. "
-    return [Xml.Comment(said), Xml.Element("default", name="pixel_stretch", value=repr(stretch))]
+    said = "The pixels are not square, which stock Mitsuba cannot do: it shows another height of the view"
+    return [comment(said), Xml.Element("default", name="pixel_stretch", value=repr(stretch))]
 
 
 def _orthographic(camera: Camera, film: Film, place: str) -> tuple[Xml.Element, list[Xml.Element]]:

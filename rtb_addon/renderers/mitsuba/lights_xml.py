@@ -12,7 +12,7 @@ from ...scene.render_scene import Light
 from ...spectra import FloatArray, Spectrum
 from .camera_xml import matrix
 from .names import Names
-from .spectrum_xml import element, format_spectrum
+from .spectrum_xml import comment, element, format_spectrum
 
 # The material of lamps' spheres: they emit and reflect nothing.
 BLACK = "black"
@@ -92,11 +92,9 @@ def _spot(lamp: Light, intensity: Spectrum, names: Names, span: Span) -> list[Xm
     node = element("emitter", "spot", id=place, cutoff_angle=cone / 2, beam_width=beam)
     node.append(matrix("to_world", _facing(lamp)))
     node.append(format_spectrum("intensity", intensity, span))
-    before = [
-        _needs_ours(f"{place} fades by a smooth step over the cosine, in stock Mitsuba by a straight line")
-    ]
+    before = [comment(f"{place} fades by a smooth step over the cosine, in stock Mitsuba by a straight line")]
     if radius:
-        before[0] = _needs_ours(f"{place} has a radius and a smooth edge, in stock Mitsuba it is a point")
+        before[0] = comment(f"{place} has a radius and a smooth edge, in stock Mitsuba it is a point")
         before.append(Xml.Element("default", name=f"{place}_radius", value=repr(radius)))
     return [*before, node]
 
@@ -110,7 +108,7 @@ def _directional(lamp: Light, intensity: Spectrum, names: Names, span: Span) -> 
     node.append(format_spectrum("irradiance", intensity, span))
     if angle == 0:
         return [node]
-    said = _needs_ours(f"{place} is a disc in the sky, in stock Mitsuba a single direction")
+    said = comment(f"{place} is a disc in the sky, in stock Mitsuba a single direction")
     return [said, Xml.Element("default", name=f"{place}_angle", value=repr(angle)), node]
 
 
@@ -132,7 +130,3 @@ def _facing(lamp: Light) -> FloatArray:
 def _xyz(tag: str, name: str, values: FloatArray) -> Xml.Element:
     x, y, z = (repr(float(value)) for value in values)
     return Xml.Element(tag, name=name, x=x, y=y, z=z)
-
-
-def _needs_ours(sentence: str) -> Xml.Element:
-    return Xml.Comment(f" {sentence.replace('--', '- -')} ")

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from typing import cast
 from xml.etree import ElementTree as Xml
 
 import numpy as np
@@ -73,6 +74,12 @@ def element(tag: str, kind: str | None = None, *, name: str = "", id: str = "", 
         tag, text = _typed(value)
         Xml.SubElement(node, tag, name=key, value=text)
     return node
+
+
+def comment(sentence: str) -> Xml.Element:
+    """Return a comment; two hyphens in a row would end it."""
+    node = Xml.Comment(f" {sentence.replace('--', '- -')} ")
+    return cast("Xml.Element", node)
 
 
 def properties(node: Xml.Element) -> dict[str, str]:

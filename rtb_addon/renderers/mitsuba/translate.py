@@ -19,9 +19,9 @@ from ...files import write_bytes
 from ...scene.render_scene import Film, Integrator, Material, Mesh, RenderScene, Shape
 from ...spectra import Spectrum
 from ..interface import Extras
+from ..native_lines import integrator_with
 from ..ply import write_mesh
 from .camera_xml import matrix, sensor
-from .extras import apply_extras
 from .lights_xml import BLACK, environment, light
 from .names import Names
 from .spectrum_xml import element, format_spectrum, range_for, regular
@@ -33,7 +33,7 @@ _NARROW = 1.0
 def translate(scene: RenderScene, extras: Extras, folder: Path, name: str) -> Path:
     """Write NAME.xml and the meshes it names into a folder, and return the XML file."""
     path = folder / f"{name}.xml"
-    root = scene_xml(scene, apply_extras(scene.integrator, extras), folder)
+    root = scene_xml(scene, integrator_with(scene.integrator, extras, "Mitsuba"), folder)
     Xml.indent(root)
     write_bytes(path, Xml.tostring(root, encoding="utf-8", xml_declaration=True))
     return path
