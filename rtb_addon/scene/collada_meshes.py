@@ -139,7 +139,7 @@ def _corners(primitive: Element, least_stride: int) -> tuple[IntArray, IntArray]
 
 def _counts(primitive: Element, lengths: list[int]) -> IntArray:
     if local_name(primitive) == "triangles":
-        return np.full(sum(lengths) // 3, 3)
+        return np.full(-(-sum(lengths) // 3), 3)
     if local_name(primitive) == "polygons":
         return np.array(lengths, np.int64)
     counted = child(primitive, "vcount")

@@ -42,8 +42,8 @@ class Instance(NamedTuple):
 
     @property
     def name(self) -> str:
-        """The node's id, or its name."""
-        return self.node.get("id") or self.node.get("name") or "a node without id"
+        """What a person calls it: the node's name, or its id."""
+        return self.node.get("name") or self.node.get("id") or "a node without a name"
 
 
 def metres_per_unit(document: Scene) -> float:

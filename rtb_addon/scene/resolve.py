@@ -114,7 +114,8 @@ def _camera(document: Scene, placed: list[Instance], settings: SceneSettings) ->
     camera, unit = chosen[0], metres_per_unit(document)
     with at(document.file, document.line_of(camera.thing)):
         mirrored = settings.handedness == "rtb3"
-        return read_camera(camera.thing, camera.name, camera.to_world, unit, settings.film, mirrored)
+        id = camera.node.get("id") or camera.thing.get("id")
+        return read_camera(camera.thing, id, camera.to_world, unit, settings.film, mirrored)
 
 
 def _lit(shapes: list[Shape], lights: Lights, document: Scene, values: Values) -> tuple[list[Shape], Lights]:
