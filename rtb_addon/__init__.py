@@ -8,29 +8,55 @@ nothing, and Blender's own process stays free of what only renderings need.
 from __future__ import annotations
 
 from importlib import import_module
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
-_PLACES = {
-    "Condition": ".conditions",
-    "Conditions": ".conditions",
-    "Conventions": ".recipe_options",
-    "Event": ".background",
-    "MontageOptions": ".recipe_options",
-    "Recipe": ".recipe",
-    "RecipeError": ".errors",
-    "RecipeOptions": ".recipe_options",
-    "RenderingError": ".errors",
-    "SceneBuilder": ".scene.build",
-    "SpectralImage": ".spectral_image",
-    "Spectrum": ".spectra",
-    "import_recipe": ".old_recipes",
-    "make_montage": ".montage",
-    "render_condition": ".batch",
-    "render_recipe": ".batch",
-    "write_recipe": ".recipe",
+if TYPE_CHECKING:
+    from .background import Event
+    from .batch import render_condition, render_recipe
+    from .conditions import Condition, Conditions
+    from .errors import RecipeError, RenderingError
+    from .montage import make_montage
+    from .old_recipes import import_recipe
+    from .recipe import Recipe, write_recipe
+    from .recipe_options import Conventions, MontageOptions, RecipeOptions
+    from .scene.build import SceneBuilder
+    from .spectra import Spectrum
+    from .spectral_image import SpectralImage
+
+__all__ = [
+    "Condition",
+    "Conditions",
+    "Conventions",
+    "Event",
+    "MontageOptions",
+    "Recipe",
+    "RecipeError",
+    "RecipeOptions",
+    "RenderingError",
+    "SceneBuilder",
+    "SpectralImage",
+    "Spectrum",
+    "import_recipe",
+    "make_montage",
+    "render_condition",
+    "render_recipe",
+    "write_recipe",
+]
+
+_ROOMS = {
+    ".background": ("Event",),
+    ".batch": ("render_condition", "render_recipe"),
+    ".conditions": ("Condition", "Conditions"),
+    ".errors": ("RecipeError", "RenderingError"),
+    ".montage": ("make_montage",),
+    ".old_recipes": ("import_recipe",),
+    ".recipe": ("Recipe", "write_recipe"),
+    ".recipe_options": ("Conventions", "MontageOptions", "RecipeOptions"),
+    ".scene.build": ("SceneBuilder",),
+    ".spectra": ("Spectrum",),
+    ".spectral_image": ("SpectralImage",),
 }
-
-__all__ = list(_PLACES)
+_PLACES = {name: room for room, names in _ROOMS.items() for name in names}
 
 
 def __getattr__(name: str) -> Any:
@@ -40,4 +66,4 @@ def __getattr__(name: str) -> Any:
 
 
 def __dir__() -> list[str]:
-    return sorted({*globals(), *_PLACES})
+    return sorted({*globals(), *__all__})

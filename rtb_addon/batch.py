@@ -5,6 +5,7 @@ from __future__ import annotations
 import os
 import time
 from collections.abc import Callable, Iterator, Sequence
+from contextlib import suppress
 from dataclasses import dataclass, field, replace
 from pathlib import Path
 
@@ -18,7 +19,7 @@ from .keys import Key, key_of, versions_of
 from .locks import locked
 from .recipe import CONDITIONS, Recipe
 from .recipe_options import section_words
-from .rendering import Rendering, found, render_condition
+from .rendering import SCRATCH, Rendering, found, render_condition
 from .worker import Task
 
 _ENDS = {"done", "cached", "failed"}
@@ -60,9 +61,13 @@ def render_recipe(
     with locked(recipe.folder):
         sweep(recipe.folder)
         batch = _Batch(recipe, total=len(chosen))
-        for event in _events(recipe, chosen, jobs, threads, fresh, cancelled):
-            batch.note(stamped := batch.stamped(event))
-            yield stamped
+        try:
+            for event in _events(recipe, chosen, jobs, threads, fresh, cancelled):
+                batch.note(stamped := batch.stamped(event))
+                yield stamped
+        finally:
+            with suppress(OSError):  # where another disk holds the cubes, it lies there
+                (recipe.folder / SCRATCH).rmdir()
 
 
 def chosen_conditions(recipe: Recipe, names: Sequence[str] | None) -> list[Condition]:
@@ -180,7 +185,7 @@ class _Batch:
         return {
             "library version": records.library_version(),
             "renderer": name,
-            **versions_of(name),
+            **versions_of(self.recipe, name),
             "options": section_words(self.recipe.options) | dict(self.recipe.overrides),
             "process": os.getpid(),
         }

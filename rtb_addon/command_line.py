@@ -14,6 +14,7 @@ from pathlib import Path
 from . import renderers
 from .background import Event
 from .batch import render_recipe
+from .errors import RecipeError
 from .lifeline import watch_parent
 from .montage import make_montage, write_png
 from .old_recipes import import_recipe
@@ -109,10 +110,16 @@ def make_montages(recipe: Recipe, output: Path | None = None) -> Iterator[Path]:
 
 def _with_montage(recipe: Recipe, events: Iterable[Event]) -> Iterator[Event]:
     for event in events:
-        if event.kind == "finished":
-            made = [str(file) for file in make_montages(recipe)]
-            event = replace(event, file=made[0] if made else "")
-        yield event
+        yield _with_pictures(recipe, event) if event.kind == "finished" else event
+
+
+def _with_pictures(recipe: Recipe, event: Event) -> Event:
+    """Make the montages; that some pictures do not fit together spoils no cube."""
+    try:
+        made = [str(file) for file in make_montages(recipe)]
+    except RecipeError as error:
+        return replace(event, warnings=(f"no montage: {error}",))
+    return replace(event, file=made[0] if made else "")
 
 
 def _told(events: Iterable[Event]) -> Iterator[Event]:

@@ -19,12 +19,11 @@ from typing import Any, NamedTuple
 
 import numpy as np
 
-from . import renderers
 from .conditions import Condition
 from .errors import RecipeError
 from .recipe import Recipe
 from .recipe_options import section_words
-from .recipe_scene import adjustments_of
+from .recipe_scene import adjustments_of, renderer_of
 from .scene.adjustments import Adjustments
 
 # Raised when the way from a folder to a RenderScene changes what comes out.
@@ -69,7 +68,7 @@ def key_of(recipe: Recipe, condition: Condition) -> Key:
     for name in texture_names(parent):
         with suppress(RecipeError):  # whether it is needed is for resolving to say
             find_file(name)
-    versions = recipe.once(("versions", options.renderer), lambda: versions_of(options.renderer))
+    versions = versions_of(recipe, options.renderer)
     applied = _plain(adjustments, str(recipe.folder))
     inputs = {
         "engine": ENGINE,
@@ -85,10 +84,10 @@ def key_of(recipe: Recipe, condition: Condition) -> Key:
     return Key(hashlib.sha256(text.encode()).hexdigest(), adjustments, versions, files, applied)
 
 
-def versions_of(name: str) -> dict[str, Any]:
+def versions_of(recipe: Recipe, name: str) -> dict[str, Any]:
     """Return a renderer's version and our translation's for it; one sentence when it is not installed."""
-    renderer = renderers.find(name)
-    installed = renderer.version()
+    renderer = renderer_of(recipe, name)
+    installed = recipe.once(("version", name), renderer.version)
     if installed.version is None:
         raise RecipeError(f"the renderer {name} cannot be used here: {installed.reason}")
     return {"renderer version": installed.version, "translation": renderer.translation}

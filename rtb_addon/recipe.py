@@ -4,24 +4,23 @@ from __future__ import annotations
 
 import json
 from collections.abc import Callable, Hashable, Mapping
-from dataclasses import dataclass, field, fields, replace
+from dataclasses import dataclass, field, replace
 from functools import cached_property
 from pathlib import Path
 from typing import Any
 
-from . import locks
+from . import locks, recipe_words
 from .conditions import Condition, Conditions, format_conditions, read_conditions
 from .errors import RecipeError
 from .files import write_bytes, write_text
 from .mappings import Mappings, read_mappings
-from .recipe_options import Conventions, MontageOptions, RecipeOptions, section, section_words
+from .recipe_options import Conventions, MontageOptions, RecipeOptions
 from .recipe_problems import problems
+from .recipe_words import RECIPE
 from .resources import Resources
 from .scene.document import Scene
 
-FORMAT = 1
-RECIPE, PARENT, CONDITIONS, MAPPINGS = "recipe.json", "parent.dae", "conditions.txt", "mappings.txt"
-_SECTIONS = {"options": RecipeOptions, "conventions": Conventions, "montage": MontageOptions}
+PARENT, CONDITIONS, MAPPINGS = "parent.dae", "conditions.txt", "mappings.txt"
 
 
 @dataclass(frozen=True, eq=False)
@@ -60,22 +59,24 @@ class Recipe:
     def load(cls, folder: Path | str) -> Recipe:
         """Read the recipe in a folder; its tables, mappings and scenes are read when somebody asks."""
         file = Path(folder) / RECIPE
-        if not file.is_file():
-            raise RecipeError(f"{folder} is no recipe folder: it holds no {RECIPE}")
         try:
             words = json.loads(file.read_text(encoding="utf-8"))
+        except (FileNotFoundError, NotADirectoryError) as error:
+            raise RecipeError(f"{folder} is no recipe folder: it holds no {RECIPE}") from error
         except json.JSONDecodeError as error:
             raise RecipeError(f"{error.msg}, it must be JSON", RECIPE, error.lineno) from error
         except UnicodeDecodeError as error:
             raise RecipeError("it must be JSON in UTF-8", RECIPE) from error
         except OSError as error:
             raise RecipeError(f"it cannot be read: {error.strerror}", RECIPE) from error
-        return cls(Path(folder), **_parsed(words, Path(folder).absolute().name))
+        return cls(Path(folder), **recipe_words.parsed(words, Path(folder).absolute().name))
 
     def save(self) -> None:
         """Write recipe.json, with the keys of others that it held."""
         locks.refuse_if_locked(self.folder)
-        text = json.dumps(self._as_words(), indent=2, ensure_ascii=False) + "\n"
+        sections = {"options": self.options, "conventions": self.conventions, "montage": self.montage}
+        words = recipe_words.words_of(self.name, sections, self.provenance, self.words)
+        text = json.dumps(words, indent=2, ensure_ascii=False) + "\n"
         write_text(self.folder / RECIPE, text)
 
     def overridden(self, **options: Any) -> Recipe:
@@ -155,11 +156,7 @@ class Recipe:
 
     def unknown_words(self) -> list[str]:
         """Return one sentence for each key of recipe.json that nobody knows."""
-        found = [name for name in self.words if name not in _KNOWN]
-        for name, kind in _SECTIONS.items():
-            known = {item.name for item in fields(kind)} - {"renderer", "centres"}
-            found += [f"{name}.{key}" for key in self.words.get(name, {}) if key not in known]
-        return [f"{RECIPE}: {name} is kept, but means nothing to this version" for name in found]
+        return recipe_words.unknown(self.words)
 
     def problems(self) -> list[RecipeError]:
         """Return everything that is wrong with the recipe, not the first thing only."""
@@ -181,17 +178,7 @@ class Recipe:
             )
         return file
 
-    def _as_words(self) -> dict[str, Any]:
-        options = section_words(self.options)
-        written = {"format": FORMAT, "name": self.name, "renderer": options.pop("renderer")}
-        sections = {"options": options} | {
-            name: section_words(getattr(self, name)) for name in ("conventions", "montage")
-        }
-        kept = {name: {**self.words.get(name, {}), **words} for name, words in sections.items()}
-        return {**self.words, **written, **kept, "provenance": dict(self.provenance)}
 
-
-_KNOWN = {"format", "name", "renderer", "provenance", *_SECTIONS}
 _COLUMNS = {"renderer": "renderer", "width": "imageWidth", "height": "imageHeight", "camera": "camera"}
 
 
@@ -231,35 +218,6 @@ def write_recipe(
     recipe = Recipe(folder, name, options, conventions, montage, provenance, old)
     recipe.save()
     return recipe
-
-
-def _parsed(words: Any, default_name: str) -> dict[str, Any]:
-    """Return what recipe.json says as a Recipe's fields."""
-    if not isinstance(words, dict):
-        raise RecipeError(f"it holds no object, it must begin with {{ and say format: {FORMAT}", RECIPE)
-    version = words.get("format")
-    if not isinstance(version, int) or not 1 <= version <= FORMAT:
-        raise RecipeError(f"format is {json.dumps(version)}, this version reads format {FORMAT}", RECIPE)
-    name = words.get("name", default_name)
-    if not isinstance(name, str) or not name.strip() or any(letter in name for letter in '/\\:*?"<>|\0'):
-        raise RecipeError(f"name is {json.dumps(name)}, it must be a text fit for a file's name", RECIPE)
-    provenance = words.get("provenance", {})
-    if not isinstance(provenance, dict):
-        raise RecipeError("provenance must be an object of names and values", RECIPE)
-    sections = {key: _parsed_section(words, key) for key in _SECTIONS}
-    return {"name": name, "provenance": provenance, "words": words, **sections}
-
-
-def _parsed_section(words: Mapping[str, Any], name: str) -> Any:
-    said = words.get(name, {})
-    if not isinstance(said, dict):
-        raise RecipeError(f"{name} must be an object of names and values", RECIPE)
-    if name == "options" and "renderer" in words:
-        said = {**said, "renderer": words["renderer"]}
-    try:
-        return section(_SECTIONS[name], said)
-    except ValueError as error:
-        raise RecipeError(f"{name}: {error}", RECIPE) from error
 
 
 def _cell_value(option: str, text: str) -> Any:

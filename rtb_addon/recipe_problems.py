@@ -5,9 +5,8 @@ from __future__ import annotations
 from collections.abc import Iterator
 from typing import TYPE_CHECKING, NamedTuple
 
-from . import renderers
 from .errors import RecipeError
-from .recipe_scene import adjustments_of, lacks, resolve_condition
+from .recipe_scene import adjustments_of, lacks, renderer_of, resolve_condition
 
 if TYPE_CHECKING:
     from .conditions import Condition
@@ -55,6 +54,12 @@ def _findings(recipe: Recipe) -> Iterator[Finding]:
     yield from (Finding(None, sentence) for sentence in recipe.resources.warnings)
 
 
+def _missing(recipe: Recipe, name: str) -> str | None:
+    """Return why a renderer is not here, None when it is."""
+    installed = recipe.once(("version", name), renderer_of(recipe, name).version)
+    return installed.reason if installed.version is None else None
+
+
 def _mapping_problems(recipe: Recipe) -> Iterator[Finding]:
     try:
         recipe.mappings  # noqa: B018  reading is what raises
@@ -65,9 +70,8 @@ def _mapping_problems(recipe: Recipe) -> Iterator[Finding]:
 def _condition_findings(recipe: Recipe, condition: Condition) -> Iterator[Finding]:
     try:
         name = recipe.options_of(condition).renderer
-        version = renderers.find(name).version()
-        if version.version is None:
-            yield Finding(RecipeError(f"the renderer {name} is not here: {version.reason}"))
+        if (reason := _missing(recipe, name)) is not None:
+            yield Finding(RecipeError(f"the renderer {name} cannot be used here: {reason}"))
         adjustments = adjustments_of(recipe, condition, recipe.find_file)
         resolved = resolve_condition(recipe, condition, adjustments)
     except RecipeError as error:

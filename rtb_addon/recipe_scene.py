@@ -7,7 +7,9 @@ from collections.abc import Callable, Sequence
 from pathlib import Path
 from typing import TYPE_CHECKING
 
+from . import renderers
 from .renderers.fidelity import TABLE, unsupported
+from .renderers.interface import Renderer
 from .scene.adjustments import Adjustments, NativeLine
 from .scene.render_scene import RenderScene
 from .scene.resolve import Resolved, SceneSettings, resolve
@@ -20,6 +22,11 @@ FindFile = Callable[[str], Path | None]
 
 # Our options as native lines call them.
 _NATIVE_NAMES = {"samples": "sampleCount", "width": "width", "height": "height"}
+
+
+def renderer_of(recipe: Recipe, name: str) -> Renderer:
+    """Return a renderer by its name, looked up once for each recipe."""
+    return recipe.once(("renderer", name), lambda: renderers.find(name))
 
 
 def adjustments_of(recipe: Recipe, condition: Condition, find_file: FindFile) -> Adjustments:

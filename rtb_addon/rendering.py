@@ -9,13 +9,13 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
 
-from . import records, renderers
+from . import records
 from .conditions import Condition
 from .errors import RecipeError
 from .files import temporary_prefix
 from .keys import Key, key_of
 from .recipe import Recipe
-from .recipe_scene import lacks, remaining_lines, resolve_condition
+from .recipe_scene import lacks, remaining_lines, renderer_of, resolve_condition
 from .renderers.interface import RenderOptions, Report
 from .spectral_image import SpectralImage
 
@@ -70,7 +70,7 @@ def render_condition(
     if missing := lacks(options.renderer, resolved.scene):
         raise RecipeError(missing[0])
     extras = remaining_lines(recipe, condition, resolved.extras)
-    renderer = renderers.find(options.renderer)
+    renderer = renderer_of(recipe, options.renderer)
     folder = recipe.scenes_folder / options.renderer
     native = renderer.translate(resolved.scene, extras, folder, name)
     image = renderer.render(native, RenderOptions(threads), report).scaled(recipe.conventions.factor)

@@ -25,6 +25,7 @@ FLOORS = {
     "rtb_addon/recipe_options.py": 4,
     "rtb_addon/recipe_problems.py": 4,
     "rtb_addon/recipe_scene.py": 4,
+    "rtb_addon/recipe_words.py": 4,
     "rtb_addon/resources.py": 4,
     "rtb_addon/colorimetry.py": 3,
     "rtb_addon/spectral_image.py": 3,

@@ -1,7 +1,9 @@
 import json
+import shutil
 import signal
 import subprocess
 import sys
+import tempfile
 import time
 from pathlib import Path
 
@@ -160,22 +162,22 @@ def test_an_interrupted_batch_ends_with_130_and_keeps_what_is_done(write_family,
 
 
 def test_a_folder_that_may_only_be_read_is_one_sentence(write_family):
-    recipe = write_family({"a": "0.2"})
-    for folder in (recipe.folder, *recipe.folder.rglob("*")):
-        folder.chmod(0o555 if folder.is_dir() else 0o444)
-    for folder in recipe.folder.parents:
-        if folder.owner() == recipe.folder.owner() and "pytest" in str(folder):
-            folder.chmod(0o755)
-    # The superuser may write anywhere, so he becomes nobody once he has read the program.
+    # The superuser may write anywhere, so he becomes nobody once he has read all of the program.
     code = (
-        "import os, sys; from rtb_addon.__main__ import main;"
+        "import encodings.utf_8_sig, os, sys; from rtb_addon.__main__ import main;"
         "os.geteuid() or (os.setgid(65534), os.setuid(65534)); sys.exit(main(sys.argv[1:]))"
     )
-    command = [sys.executable, "-c", code, "render", str(recipe.folder), "--json"]
-    done = subprocess.run(command, cwd=ROOT, capture_output=True, text=True, check=False)
+    # pytest's own folders are closed to anybody else.
+    with tempfile.TemporaryDirectory() as place:
+        folder = Path(shutil.copytree(write_family({"a": "0.2"}).folder, Path(place) / "family"))
+        Path(place).chmod(0o755)
+        folder.chmod(0o555)
+        command = [sys.executable, "-c", code, "render", str(folder), "--json"]
+        done = subprocess.run(command, cwd=ROOT, capture_output=True, text=True, check=False)
+        folder.chmod(0o755)
     assert done.returncode == 2
     assert done.stderr.strip() == (
-        f"cannot write into {recipe.folder} (Permission denied); make it writable, or render a copy of it"
+        f"cannot write into {folder} (Permission denied); make it writable, or render a copy of it"
     )
 
 

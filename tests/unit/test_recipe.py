@@ -10,6 +10,8 @@ from rtb_addon import locks
 from rtb_addon.errors import RecipeError
 from rtb_addon.recipe import Recipe
 from rtb_addon.recipe_options import Conventions, MontageOptions, RecipeOptions
+from rtb_addon.recipe_scene import remaining_lines
+from rtb_addon.renderers.interface import NativeLine
 
 ROOT = Path(__file__).resolve().parents[2]
 
@@ -103,6 +105,21 @@ def test_a_size_that_is_no_number_is_said_with_its_row(write_family):
     recipe = Recipe.load(recipe.folder)
     with pytest.raises(RecipeError, match=r'conditions.txt:2: width is "wide", it must be a whole number'):
         recipe.options_of(recipe.conditions["a"])
+
+
+def test_the_command_line_and_the_row_win_over_native_lines(write_family):
+    recipe = write_family({"a": "0.2"})
+    (recipe.folder / "conditions.txt").write_text("imageName\timageWidth\na\t30\n")
+    recipe = Recipe.load(recipe.folder).overridden(samples=9)
+    texts = [
+        "Camera-camera_sampler:sampleCount.integer = 64",
+        "Camera-camera_film:width.integer = 10",
+        "Camera-camera_film:height.integer = 10",
+        "integrator:maxDepth.integer = 4",
+        "Camera-camera:name.string = sampleCount",
+    ]
+    lines = [NativeLine(text, "mappings.txt", 1) for text in texts]
+    assert [line.text for line in remaining_lines(recipe, recipe.conditions["a"], lines)] == texts[2:]
 
 
 def test_files_are_found_in_resources_first_then_in_the_folder_then_by_base_name(write_family):
