@@ -42,7 +42,9 @@ def full():
     paint = Spectrum.of(np.sort(rng.uniform(300, 800, 9)), rng.random(9))
     light = {"intensity": Spectrum.of([400, 500.1], [1 / 3, 2e-17], Unit.INTENSITY)}
     return RenderScene(
-        Camera("Camera-camera", "perspective", awkward(rng, 4, 4), tuple(awkward(rng, 4).tolist()), (0.1, 1e5)),
+        Camera(
+            "Camera-camera", "perspective", awkward(rng, 4, 4), tuple(awkward(rng, 4).tolist()), (0.1, 1e5)
+        ),
         (
             Shape("Vase-mesh", mesh, awkward(rng, 4, 4), "Paint"),
             Shape(

@@ -22,12 +22,12 @@ def rays(camera: Camera, x: FloatArray, y: FloatArray) -> tuple[FloatArray, Floa
     """
     left, right, bottom, top = camera.window
     near, far = camera.clip
-    window = np.stack([left + x * (right - left), top + y * (bottom - top), np.full_like(x, -1.0)], axis=1)
+    window = np.stack([left + x * (right - left), top + y * (bottom - top), np.full_like(x, -1.0)])
     if camera.projection == "perspective":
         starts, ahead = window * near, window
     else:
-        starts = window * [1, 1, near]
-        ahead = np.broadcast_to([0.0, 0.0, -1.0], window.shape)
-    turn, place = camera.to_world[:3, :3], camera.to_world[:3, 3]
+        starts = window * [[1], [1], [near]]
+        ahead = np.broadcast_to([[0.0], [0.0], [-1.0]], window.shape)
+    turn, place = camera.to_world[:3, :3], camera.to_world[:3, 3:]
     stretch = length(ahead)
-    return starts @ turn.T + place, (ahead / stretch[:, None]) @ turn.T, (far - near) * stretch
+    return turn @ starts + place, turn @ (ahead / stretch), (far - near) * stretch

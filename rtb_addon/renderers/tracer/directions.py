@@ -1,4 +1,8 @@
-"""Small arithmetic on many vectors at once: (n, 3) arrays, one vector a row."""
+"""
+Small arithmetic on many vectors at once.
+
+They are (3, n) arrays, a row per axis of space, because numpy is quickest along rows.
+"""
 
 from __future__ import annotations
 
@@ -8,8 +12,8 @@ from ...spectra import FloatArray
 
 
 def dot(a: FloatArray, b: FloatArray) -> FloatArray:
-    """Return the (n,) scalar products of two (n, 3) arrays."""
-    return np.einsum("ij,ij->i", a, b)
+    """Return the (n,) scalar products of vectors."""
+    return np.einsum("ij,ij->j", a, b)
 
 
 def length(a: FloatArray) -> FloatArray:
@@ -21,17 +25,22 @@ def normalised(a: FloatArray) -> FloatArray:
     """Return vectors at length 1; a null vector stays null."""
     lengths = length(a)
     lengths[lengths == 0] = 1
-    unit = a.astype(float)
-    unit /= lengths[:, None]
-    return unit
+    return a / lengths
+
+
+def cross(a: FloatArray, b: FloatArray) -> FloatArray:
+    """Return the vector products of vectors."""
+    return np.stack([a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]])
 
 
 def sphere(u: FloatArray, v: FloatArray) -> FloatArray:
     """Return points spread evenly over the unit sphere, from (n,) numbers in [0, 1)."""
-    z = 1 - 2 * u
-    r = np.sqrt(np.maximum(1 - z * z, 0))
+    points = np.empty((3, len(u)))
+    points[2] = 1 - 2 * u
+    r = np.sqrt(1 - points[2] ** 2)
     turn = 2 * np.pi * v
-    return np.stack([r * np.cos(turn), r * np.sin(turn), z], axis=1)
+    points[0], points[1] = r * np.cos(turn), r * np.sin(turn)
+    return points
 
 
 def cone(axes: FloatArray, one_minus_cosine: FloatArray, u: FloatArray, v: FloatArray) -> FloatArray:
@@ -40,24 +49,20 @@ def cone(axes: FloatArray, one_minus_cosine: FloatArray, u: FloatArray, v: Float
 
     Parameters
     ----------
-    axes : (n, 3) unit vectors
+    axes : (3, n) unit vectors
     one_minus_cosine : (n,) of the half angle; so given because cones may be as thin as a star's
     """
     below = u * one_minus_cosine
     r = np.sqrt(below * (2 - below))
     turn = 2 * np.pi * v
     s, t = _tangents(axes)
-    around = s * (r * np.cos(turn))[:, None] + t * (r * np.sin(turn))[:, None]
-    return around + axes * (1 - below)[:, None]
+    return s * (r * np.cos(turn)) + t * (r * np.sin(turn)) + axes * (1 - below)
 
 
 def _tangents(n: FloatArray) -> tuple[FloatArray, FloatArray]:
     """Return two vectors across each unit vector (Duff et al. 2017, JCGT 6(1), listing 3)."""
-    x, y, z = n.T
+    x, y, z = n
     sign = np.where(z < 0, -1.0, 1.0)
     a = -1 / (sign + z)
     b = x * y * a
-    return (
-        np.stack([1 + sign * x * x * a, sign * b, -sign * x], axis=1),
-        np.stack([b, sign + y * y * a, -y], axis=1),
-    )
+    return np.stack([1 + sign * x * x * a, sign * b, -sign * x]), np.stack([b, sign + y * y * a, -y])

@@ -1,11 +1,10 @@
 """
 From the camera to the light: a path tracer over many paths at once.
 
-Arrays have a row per path and, where it matters, a column per band. Paths leave the camera in waves; at
-every surface that they meet they look for a light (next-event estimation), then go on in a
-random direction, where they may find a light as well. Both ways together are weighed by the balance
-heuristic (Veach and Guibas, *Optimally Combining Sampling Techniques*, 1995). No path ends by chance: its
-length is its integrator's depth.
+Paths leave the camera in waves. At every surface that they meet they look for a light (next-event
+estimation), then go on in a random direction, where they may find a light as well; both ways together are
+weighed by the balance heuristic (Veach and Guibas, *Optimally Combining Sampling Techniques*, 1995).
+No path ends by chance: its length is its integrator's depth.
 """
 
 from __future__ import annotations
@@ -66,7 +65,7 @@ class Paths(NamedTuple):
     Parameters
     ----------
     number : (n,) int array, row of the wave that a path's light belongs to
-    origins, directions : (n, 3) arrays [m]
+    origins, directions : (3, n) arrays [m]
     reach : (n,) how far they see [m]; None without end
     density : (n,) of the direction [sr-1]; infinite where no light could have been chosen instead
     throughput : (n, bands) float32 array, radiance seen per radiance met
@@ -87,8 +86,8 @@ class Paths(NamedTuple):
         # take() is two or three times as quick as an index, here and elsewhere.
         return Paths(
             self.number[rows],
-            self.origins.take(rows, axis=0),
-            self.directions.take(rows, axis=0),
+            self.origins.take(rows, axis=1),
+            self.directions.take(rows, axis=1),
             reach,
             self.density[rows],
             self.throughput.take(rows, axis=0),
@@ -203,7 +202,7 @@ def _add_sampled(world: World, paths: Paths, places: Places, draw: Pair, found: 
     reflected = lobe(dot(places.normals, sample.directions))
     strength = sample.strength * reflected / (sample.density + sample.extended * reflected)
     rows = np.nonzero((strength > 0) & (dot(places.faces, sample.directions) > 0))[0]
-    start, directions = places.start.take(rows, axis=0), sample.directions.take(rows, axis=0)
+    start, directions = places.start.take(rows, axis=1), sample.directions.take(rows, axis=1)
     rows = rows[~world.blocked(start, directions, sample.reach[rows])]
     _add(world, paths, rows, sample.row[rows], strength[rows], found)
 

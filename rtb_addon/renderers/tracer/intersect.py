@@ -14,10 +14,10 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from ...scene.render_scene import IntArray, Shape
+from ...scene.render_scene import Shape
 from ...spectra import FloatArray
 from .bvh import Bvh
-from .directions import dot, normalised
+from .directions import cross, dot, normalised
 from .kernels import Embree, Hits, Kernel
 
 # How far a ray starts off a surface, per size of the numbers in it: 16 units of single precision.
@@ -38,13 +38,11 @@ class Places(NamedTuple):
 
     Parameters
     ----------
-    points : (n, 3) array [m]
-    faces : (n, 3) unit normals of the triangles, towards the ray's origin
-    normals : (n, 3) unit normals to shade with, on the same side for a smooth mesh
-    start : (n, 3) points [m] a little above, which single precision tells from the surface
+    faces : (3, n) unit normals of the triangles, towards the ray's origin
+    normals : (3, n) unit normals to shade with, on the same side for a smooth mesh
+    start : (3, n) points [m] a little above, which single precision tells from the surface
     """
 
-    points: FloatArray
     faces: FloatArray
     normals: FloatArray
     start: FloatArray
@@ -59,8 +57,9 @@ class Surfaces:
 
     Attributes
     ----------
-    corners : (triangles, 3, 3) float64 array [m]
-    normals : (triangles, 3) unit normals; a triangle without area has none
+    corners : (3, 3, triangles) float64 array [m]: corner, axis, triangle
+    normals : (3, triangles) unit normals; a triangle without area has none
+    lift : (triangles,) distance from each [m] at which single precision tells a place from its surface
     shape, material : (triangles,) int32 arrays, numbers of its shape and material
     kernel : what finds them
     """
@@ -68,22 +67,20 @@ class Surfaces:
     def __init__(
         self, shapes: Sequence[Shape], materials: Mapping[str, int], make: Callable[[FloatArray], Kernel]
     ) -> None:
-        self.corners = _joined([_corners(shape) for shape in shapes], (0, 3, 3))
-        edges = self.corners[:, 1:] - self.corners[:, :1]
-        sides = _joined([np.full(len(shape.mesh.triangles), _side(shape)) for shape in shapes], (0,))
-        self.normals = normalised(np.cross(edges[:, 0], edges[:, 1])) * sides[:, None]
         counts = [len(shape.mesh.triangles) for shape in shapes]
         self.shape = np.repeat(np.arange(len(shapes), dtype=np.int32), counts)
         numbers = np.array([materials[shape.material] for shape in shapes], np.int32)
-        self.material = numbers[self.shape] if len(shapes) else self.shape
+        self.material = numbers.take(self.shape)
+        self.corners = _joined([_corners(shape) for shape in shapes])
+        one, two = self.corners[1] - self.corners[0], self.corners[2] - self.corners[0]
+        sides = np.array([_side(shape) for shape in shapes]).take(self.shape)
+        self.normals = normalised(cross(one, two)) * sides
         self._smooth = _shading_normals(shapes, self.normals)
         self._centre = self._middle()
-        self._lift = np.abs(self.corners - self._centre).max(axis=(1, 2), initial=0) * _LIFT
-        # One row a triangle, since one gather of 13 numbers is quicker than five of a few.
-        self._rows = np.hstack(
-            [self.corners[:, 0], edges[:, 0], edges[:, 1], self.normals, self._lift[:, None]]
-        )
-        self.kernel = make((self.corners - self._centre).astype(np.float32))
+        self.lift = np.abs(self.corners - self._centre).max(axis=(0, 1), initial=0) * _LIFT
+        # One table, since one gather is quicker than many: a corner, two edges, normal and lift.
+        self._table = np.concatenate([self.corners[0], one, two, self.normals, self.lift[None]])
+        self.kernel = make((self.corners - self._centre).transpose(2, 0, 1).astype(np.float32))
 
     def meet(self, origins: FloatArray, directions: FloatArray, reach: FloatArray | None = None) -> Hits:
         """
@@ -91,7 +88,7 @@ class Surfaces:
 
         Parameters
         ----------
-        origins, directions : (n, 3) arrays [m], unit vectors
+        origins, directions : (3, n) arrays [m], unit vectors
         reach : (n,) array [m], or None for rays without end
         """
         limit = None if reach is None else np.array(reach, np.float32)
@@ -103,38 +100,38 @@ class Surfaces:
 
     def places(self, hits: Hits, directions: FloatArray) -> Places:
         """Return where rays met surfaces; every one of them must have met one."""
-        rows = self._rows.take(hits.triangle, axis=0)
-        u, v = hits.u[:, None], hits.v[:, None]
-        points = rows[:, 0:3] + u * rows[:, 3:6] + v * rows[:, 6:9]
-        side = np.where(dot(rows[:, 9:12], directions) < 0, 1.0, -1.0)[:, None]
-        faces = side * rows[:, 9:12]
+        rows = self._table.take(hits.triangle, axis=1)
+        points = rows[0:3] + hits.u * rows[3:6] + hits.v * rows[6:9]
+        side = np.where(dot(rows[9:12], directions) < 0, 1.0, -1.0)
+        faces = side * rows[9:12]
         normals = faces
         if self._smooth is not None:
-            a, b, c = np.moveaxis(self._smooth.take(hits.triangle, axis=0), 1, 0)
-            normals = side * normalised(a + u * (b - a) + v * (c - a))
-        return Places(points, faces, normals, points + faces * rows[:, 12:])
-
-    def lift_of(self, triangles: IntArray) -> FloatArray:
-        """Return the (n,) distances [m] at which single precision tells places from these triangles."""
-        return self._lift[triangles]
+            a, b, c = self._smooth.take(hits.triangle, axis=2)
+            normals = side * normalised(a + hits.u * (b - a) + hits.v * (c - a))
+        return Places(faces, normals, points + faces * rows[12])
 
     def radius(self) -> float:
         """Return the radius [m] of a sphere around everything; 1 when there is nothing."""
-        return float(np.linalg.norm(self.corners - self._centre, axis=2).max(initial=0)) or 1.0
+        return float(np.linalg.norm(self.corners - self._centre, axis=1).max(initial=0)) or 1.0
 
     def _middle(self) -> FloatArray:
-        """Return the middle of everything [m]: single precision is finest around zero."""
-        if not len(self.corners):
-            return np.zeros(3)
-        return (self.corners.min(axis=(0, 1)) + self.corners.max(axis=(0, 1))) / 2
+        """Return the middle of everything [m] as a column: single precision is finest around zero."""
+        if not len(self.shape):
+            return np.zeros((3, 1))
+        return (self.corners.min(axis=(0, 2)) + self.corners.max(axis=(0, 2)))[:, None] / 2
 
     def _single(self, origins: FloatArray, directions: FloatArray) -> tuple[FloatArray, FloatArray]:
-        return (origins - self._centre).astype(np.float32), np.ascontiguousarray(directions, np.float32)
+        """Return rays as kernels want them, (n, 3) arrays around the middle."""
+        return (
+            np.ascontiguousarray((origins - self._centre).T, np.float32),
+            np.ascontiguousarray(directions.T, np.float32),
+        )
 
 
 def _corners(shape: Shape) -> FloatArray:
-    turn, place = shape.to_world[:3, :3], shape.to_world[:3, 3]
-    return (shape.mesh.vertices.astype(float) @ turn.T + place)[shape.mesh.triangles]
+    turn, place = shape.to_world[:3, :3], shape.to_world[:3, 3:]
+    world = turn @ shape.mesh.vertices.T.astype(float) + place
+    return world[:, shape.mesh.triangles].transpose(2, 0, 1)
 
 
 def _side(shape: Shape) -> float:
@@ -144,16 +141,16 @@ def _side(shape: Shape) -> float:
 
 
 def _shading_normals(shapes: Sequence[Shape], flat: FloatArray) -> FloatArray | None:
-    """Return (triangles, 3, 3) float32 normals at the corners, or None when all shapes are flat."""
+    """Return (3, 3, triangles) float32 normals, corner and axis first, or None when all shapes are flat."""
     if all(shape.mesh.normals is None for shape in shapes):
         return None
-    normals = np.repeat(flat.astype(np.float32)[:, None], 3, axis=1)
+    normals = np.repeat(flat.astype(np.float32)[None], 3, axis=0)
     first = 0
     for shape in shapes:
         last = first + len(shape.mesh.triangles)
         if shape.mesh.normals is not None:
-            turned = shape.mesh.normals @ _normal_matrix(shape.to_world).T
-            normals[first:last] = normalised(turned)[shape.mesh.triangles]
+            turned = normalised(_normal_matrix(shape.to_world) @ shape.mesh.normals.T)
+            normals[:, :, first:last] = turned[:, shape.mesh.triangles].transpose(2, 0, 1)
         first = last
     return normals
 
@@ -165,5 +162,5 @@ def _normal_matrix(to_world: FloatArray) -> FloatArray:
     return sign * np.array([np.cross(b, c), np.cross(c, a), np.cross(a, b)])
 
 
-def _joined(arrays: list[FloatArray], empty: tuple[int, ...]) -> FloatArray:
-    return np.concatenate(arrays) if arrays else np.zeros(empty)
+def _joined(corners: list[FloatArray]) -> FloatArray:
+    return np.concatenate(corners, axis=2) if corners else np.zeros((3, 3, 0))

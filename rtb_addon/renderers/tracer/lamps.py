@@ -24,7 +24,7 @@ from numpy.typing import NDArray
 
 from ...scene.render_scene import IntArray, Light
 from ...spectra import FloatArray
-from .directions import cone, dot, length, normalised
+from .directions import cone, cross, dot, length, normalised
 from .intersect import Surfaces
 from .kernels import Hits
 
@@ -38,7 +38,7 @@ class Sample(NamedTuple):
 
     Parameters
     ----------
-    directions : (n, 3) unit vectors
+    directions : (3, n) unit vectors
     reach : (n,) how far the way must be free [m]
     row : (n,) the light's row in Lights.spectra
     strength : (n,) what comes from there, times the spectrum: for an extended light radiance, for the
@@ -58,13 +58,13 @@ class Sample(NamedTuple):
     def empty(cls, n: int) -> Sample:
         """Return room for n of them."""
         return cls(
-            np.empty((n, 3)), np.empty(n), np.empty(n, np.int32), np.empty(n), np.empty(n), np.empty(n)
+            np.empty((3, n)), np.empty(n), np.empty(n, np.int32), np.empty(n), np.empty(n), np.empty(n)
         )
 
     def fill(self, rows: IntArray, part: Sample) -> None:
         """Put some of them in their places."""
         for whole, column in zip(self, part, strict=True):
-            whole[rows] = column
+            whole[..., rows] = column
 
 
 class Group(Protocol):
@@ -81,7 +81,7 @@ class Group(Protocol):
     powers: FloatArray
 
     def sample(self, which: IntArray, points: FloatArray, u: FloatArray, v: FloatArray) -> Sample:
-        """Return a direction from each of (n, 3) points [m] to the light chosen for it."""
+        """Return a direction from each of (3, n) points [m] to the light chosen for it."""
         ...
 
 
@@ -89,27 +89,29 @@ class Triangles:
     """Emitting triangles; they shine to the side of their normals."""
 
     def __init__(self, surfaces: Surfaces, row_of: NDArray[np.int32]) -> None:
-        edges = surfaces.corners[:, 1:] - surfaces.corners[:, :1]
-        area = length(np.cross(edges[:, 0], edges[:, 1])) / 2
-        self.triangle = np.nonzero((row_of >= 0) & (area > 0))[0]
-        self.area = area[self.triangle]
+        shining = np.nonzero(row_of >= 0)[0]
+        corner, second, third = surfaces.corners[:, :, shining]
+        one, two = second - corner, third - corner
+        area = length(cross(one, two)) / 2
+        kept = area > 0
+        self.triangle, self.area = shining[kept], area[kept]
         self.rows, self.powers = row_of[self.triangle], np.pi * self.area
-        self._corners, self._edges = surfaces.corners[self.triangle, 0], edges[self.triangle]
-        self._normals, self._lift = surfaces.normals[self.triangle], surfaces.lift_of(self.triangle)
+        normals, lift = surfaces.normals[:, shining], surfaces.lift[shining]
+        self._table = np.concatenate([corner, one, two, normals, area[None], lift[None]])[:, kept]
 
     def sample(self, which: IntArray, points: FloatArray, u: FloatArray, v: FloatArray) -> Sample:
         """Sample evenly over the area: Turk 1990, *Generating Random Points in Triangles*, method 2."""
         root = np.sqrt(1 - u)
-        edges = self._edges[which]
-        along = (1 - root)[:, None] * edges[:, 0] + (v * root)[:, None] * edges[:, 1]
-        way = self._corners[which] + along - points
+        table = self._table.take(which, axis=1)
+        way = table[0:3] + (1 - root) * table[3:6] + (v * root) * table[6:9] - points
         distance = np.maximum(length(way), 1e-30)
-        way /= distance[:, None]
-        cosine = np.maximum(-dot(self._normals[which], way), 0)
+        way /= distance
+        cosine = -dot(table[9:12], way)
         shines = cosine > 0
-        density = distance**2 / np.where(shines, cosine * self.area[which], 1)
+        cosine[~shines] = 1
+        density = distance**2 / (cosine * table[12])
         # As rays start a little above a surface, they end a little above this one.
-        reach = np.maximum(distance - self._lift[which] / np.where(shines, cosine, 1), 0)
+        reach = np.maximum(distance - table[13] / cosine, 0)
         return Sample(way, reach, self.rows[which], shines * 1.0, density, np.ones(len(u)))
 
 
@@ -118,8 +120,8 @@ class _Beams:
 
     def __init__(self, lights: Sequence[Light], first: int) -> None:
         self.rows = first + np.arange(len(lights))
-        self.places = np.array([light.to_world[:3, 3] for light in lights], float).reshape(-1, 3)
-        axes = np.array([-light.to_world[:3, 2] for light in lights], float).reshape(-1, 3)
+        self.places = np.array([light.to_world[:3, 3] for light in lights], float).reshape(-1, 3).T
+        axes = np.array([-light.to_world[:3, 2] for light in lights], float).reshape(-1, 3).T
         self._axes = normalised(axes)
         # A point light is a spot whose cone is wider than everything.
         halves = np.radians(np.array([_number(light, "cone", 360.0) for light in lights], float)) / 2
@@ -136,7 +138,7 @@ class _Beams:
         Blender's: with t = (cos a - cos h) / ((1 - cos h) blend), clamped, t^2 (3 - 2t); a is the
         angle from the axis and h half the cone.
         """
-        cosines = dot(self._axes[which], away)
+        cosines = dot(self._axes[:, which], away)
         t = ((cosines - self._edge[which]) / self._soft[which]).clip(0, 1)
         return t * t * (3 - 2 * t)
 
@@ -146,9 +148,9 @@ class Lamps(_Beams):
 
     def sample(self, which: IntArray, points: FloatArray, u: FloatArray, v: FloatArray) -> Sample:
         """Return the one direction there is."""
-        way = self.places[which] - points
+        way = self.places[:, which] - points
         distance = np.maximum(length(way), 1e-30)
-        way /= distance[:, None]
+        way /= distance
         strength = self.profile(which, -way) / distance**2
         none = np.zeros(len(u))
         return Sample(way, distance * _SHORT, self.rows[which], strength, none + 1, none)
@@ -168,10 +170,10 @@ class Spheres(_Beams):
 
     def sample(self, which: IntArray, points: FloatArray, u: FloatArray, v: FloatArray) -> Sample:
         """Sample evenly over the cone that the sphere fills; from inside nothing is seen."""
-        way = self.places[which] - points
+        way = self.places[:, which] - points
         distance, radius = length(way), self.radii[which]
         outside = distance > radius
-        axes = np.where(outside[:, None], way / np.maximum(distance, 1e-30)[:, None], [0.0, 0.0, 1.0])
+        axes = np.where(outside, way / np.maximum(distance, 1e-30), [[0.0], [0.0], [1.0]])
         directions = cone(axes, self._one_minus_cosine(which, distance), u, v)
         along = dot(directions, way)
         reach = along - np.sqrt(np.maximum(radius**2 - distance**2 + along**2, 0))
@@ -182,7 +184,7 @@ class Spheres(_Beams):
 
     def density(self, which: IntArray, points: FloatArray) -> FloatArray:
         """Return the density [sr-1] of directions from points; 1 inside, where none is used."""
-        distance = length(self.places[which] - points)
+        distance = length(self.places[:, which] - points)
         return 1 / (2 * np.pi * self._one_minus_cosine(which, distance))
 
     def radiance(self, which: IntArray, directions: FloatArray) -> FloatArray:
@@ -200,17 +202,17 @@ class Spheres(_Beams):
 
     def block(self, origins: FloatArray, directions: FloatArray, reach: FloatArray) -> NDArray[np.bool_]:
         """Return which rays meet a sphere before their reach."""
-        blocked = np.zeros(len(origins), bool)
+        blocked = np.zeros(len(reach), bool)
         for sphere in range(len(self.rows)):
             blocked |= self._distance(sphere, origins, directions) < reach
         return blocked
 
     def _distance(self, sphere: int, origins: FloatArray, directions: FloatArray) -> FloatArray:
         """Return how far along rays a sphere's outside begins [m]; infinite where it is missed."""
-        way = self.places[sphere] - origins
+        way = self.places[:, sphere, None] - origins
         along = dot(directions, way)
         # How far the ray passes the centre, from a difference of vectors: no digits are lost.
-        beside = way - along[:, None] * directions
+        beside = way - along * directions
         depth = self.radii[sphere] ** 2 - dot(beside, beside)
         distance = along - np.sqrt(np.maximum(depth, 0))
         return np.where((depth > 0) & (distance > 0), distance, np.inf)
@@ -227,7 +229,7 @@ class Suns:
     def __init__(self, lights: Sequence[Light], first: int, radius: float) -> None:
         self.rows = first + np.arange(len(lights))
         self.powers = np.full(len(lights), np.pi * radius**2)
-        axes = np.array([light.to_world[:3, 2] for light in lights], float).reshape(-1, 3)
+        axes = np.array([light.to_world[:3, 2] for light in lights], float).reshape(-1, 3).T
         self.towards = normalised(axes)
         half = np.radians(np.array([_number(light, "angle", 0.0) for light in lights], float)) / 2
         self.one_minus_cosine: FloatArray = 2 * np.sin(half / 2) ** 2
@@ -237,14 +239,14 @@ class Suns:
 
     def sample(self, which: IntArray, points: FloatArray, u: FloatArray, v: FloatArray) -> Sample:
         """Sample evenly over the disc."""
-        directions = cone(self.towards[which], self.one_minus_cosine[which], u, v)
+        directions = cone(self.towards[:, which], self.one_minus_cosine[which], u, v)
         reach = np.full(len(u), 1e30)
         strength, density = self.radiance[which], self.densities[which]
         return Sample(directions, reach, self.rows[which], strength, density, self.extended[which] * 1.0)
 
     def seen(self, sun: int, directions: FloatArray) -> NDArray[np.bool_]:
         """Return which directions point into a sun's disc."""
-        apart = directions - self.towards[sun]
+        apart = directions - self.towards[:, sun, None]
         return self.extended[sun] & (dot(apart, apart) < 2 * self.one_minus_cosine[sun])
 
 

@@ -67,7 +67,7 @@ class Lights:
 
     def sample(self, points: FloatArray, u: FloatArray, v: FloatArray) -> Sample | None:
         """
-        Choose a light for each of (n, 3) points [m] and a direction to it; None where nothing can be chosen.
+        Choose a light for each of (3, n) points [m] and a direction to it; None where nothing can be chosen.
 
         Parameters
         ----------
@@ -77,31 +77,38 @@ class Lights:
             return None
         element = np.searchsorted(self._sums[1:], u, side="right").clip(max=len(self._chance) - 1)
         u = ((u - self._sums[element]) / self._chance[element]).clip(0, 1 - 2.0**-53)
-        sample = Sample.empty(len(points))
-        for first, group in zip(self._first, self._groups, strict=True):
+        sample = self._sample(element, points, u, v)
+        return sample._replace(density=sample.density * self._chance[element])
+
+    def _sample(self, element: IntArray, points: FloatArray, u: FloatArray, v: FloatArray) -> Sample:
+        """Return a direction to each point's light, from the group that knows it."""
+        present = [one for one in zip(self._first, self._groups, strict=True) if len(one[1].rows)]
+        if len(present) == 1:
+            return present[0][1].sample(element, points, u, v)
+        sample = Sample.empty(len(u))
+        for first, group in present:
             rows = np.nonzero((element >= first) & (element < first + len(group.rows)))[0]
-            if len(rows):
-                sample.fill(rows, group.sample(element[rows] - first, points[rows], u[rows], v[rows]))
-        sample.density[:] *= self._chance[element]
+            theirs = points.take(rows, axis=1)
+            sample.fill(rows, group.sample(element[rows] - first, theirs, u[rows], v[rows]))
         return sample
 
     def met(self, hits: Hits, origins: FloatArray, directions: FloatArray) -> Iterator[Met]:
-        """Yield the lights that rays meet, (n, 3) origins [m] and unit directions."""
+        """Yield the lights that rays meet, (3, n) origins [m] and unit directions."""
         yield self._met_triangles(hits, directions)
         for sphere in range(len(self._spheres.rows)):
             yield self._met_sphere(sphere, np.nonzero(hits.triangle == -2 - sphere)[0], origins, directions)
         escaped = np.nonzero(hits.triangle == -1)[0]
         for sun in range(len(self._suns.rows)):
-            yield self._met_sun(sun, escaped[self._suns.seen(sun, directions[escaped])])
+            yield self._met_sun(sun, escaped[self._suns.seen(sun, directions.take(escaped, axis=1))])
         # Scattering samples an even environment as well as anything could, so nothing rivals it.
         if self._environment:
             yield Met(escaped, np.full(len(escaped), len(self.spectra) - 1), np.ones(len(escaped)), 0.0)
 
     def _met_triangles(self, hits: Hits, directions: FloatArray) -> Met:
         rows = np.nonzero(hits.triangle >= 0)[0] if self._triangles.rows.size else np.zeros(0, int)
-        rows = rows[self._row_of[hits.triangle[rows]] >= 0]
+        rows = rows[self._row_of.take(hits.triangle[rows]) >= 0]
         triangle = hits.triangle[rows]
-        cosine = -dot(self._normals[triangle], directions[rows])
+        cosine = -dot(self._normals[:, triangle], directions[:, rows])
         rows, triangle, cosine = rows[cosine > 0], triangle[cosine > 0], cosine[cosine > 0]
         rival = self._per_area[triangle] * np.asarray(hits.distance[rows], float) ** 2 / cosine
         return Met(rows, self._row_of[triangle], np.ones(len(rows)), rival)
@@ -109,8 +116,8 @@ class Lights:
     def _met_sphere(self, sphere: int, rows: IntArray, origins: FloatArray, directions: FloatArray) -> Met:
         which = np.full(len(rows), sphere)
         chance = self._chance[self._first[2] + sphere]
-        rival = chance * self._spheres.density(which, origins[rows])
-        return Met(rows, self._spheres.rows[which], self._spheres.radiance(which, directions[rows]), rival)
+        rival = chance * self._spheres.density(which, origins[:, rows])
+        return Met(rows, self._spheres.rows[which], self._spheres.radiance(which, directions[:, rows]), rival)
 
     def _met_sun(self, sun: int, rows: IntArray) -> Met:
         rival = float(self._chance[self._first[3] + sun] * self._suns.densities[sun])
