@@ -259,3 +259,10 @@ def test_plain_mitsuba_loads_and_renders_every_kind_of_light(tmp_path):
     ours = renderer().render(native, RenderOptions(), lambda fraction: None).radiance
     # Nothing is lit differently in the middle of the picture, but bands are averaged in another order.
     np.testing.assert_allclose(stock_image.mean(axis=(0, 1)), ours.mean(axis=(0, 1)), rtol=0.06)
+
+
+@pytest.mark.parametrize("samples", [1, 2, 3])
+def test_a_handful_of_samples_is_enough_for_a_picture(tmp_path, samples):
+    image = picture(scene([lamp("point", radius=0.0)], samples=samples, size=(3, 1)), tmp_path)
+    expected = REFLECTANCE.in_bands(BANDS) * INTENSITY.in_bands(BANDS) / (9 * np.pi)
+    np.testing.assert_allclose(image.radiance[0, 2], expected, rtol=2e-5)

@@ -92,7 +92,7 @@ def test_the_users_choice_comes_first_and_the_wheel_before_the_system(tmp_path, 
     system = tmp_path / "libLLVM-15.so.1"
     system.write_bytes(b"2")
     monkeypatch.setattr(llvm, "_in_system", lambda: [str(system)])
-    found = llvm.candidates()
+    found = list(llvm.candidates())
     assert found[0] == str(chosen)
     assert found[-1] == str(system)
     assert any("llvm" in Path(path).parts for path in found[1:-1])

@@ -12,7 +12,7 @@ import json
 import os
 import subprocess
 import sys
-from collections.abc import Iterable
+from collections.abc import Iterable, Iterator
 from importlib import metadata, util
 from pathlib import Path
 
@@ -74,15 +74,14 @@ def working(paths: Iterable[str] | None = None, memory: Path | None = None) -> s
     return None
 
 
-def candidates() -> list[str]:
-    """Return libraries that may work, best first: the user's own choice, the wheel's, the system's."""
-    chosen = [os.environ[VARIABLE]] if os.environ.get(VARIABLE) else []
-    found = [*chosen, *_in_wheels(), *_in_system()]
-    seen: dict[str, str] = {}
-    for path in found:
-        if Path(path).is_file():
-            seen.setdefault(os.path.realpath(path), path)
-    return list(seen.values())
+def candidates() -> Iterator[str]:
+    """Yield libraries that may work, best first: the user's own choice, the wheel's, the system's."""
+    seen = set()
+    for source in (_chosen, _in_wheels, _in_system):
+        for path in source():
+            if Path(path).is_file() and (real := os.path.realpath(path)) not in seen:
+                seen.add(real)
+                yield path
 
 
 def probe(path: str) -> bool | None:
@@ -115,6 +114,10 @@ def cache_folder() -> Path:
     else:
         base = Path(os.environ.get("XDG_CACHE_HOME") or Path.home() / ".cache")
     return base / "render_toolbox"
+
+
+def _chosen() -> list[str]:
+    return [os.environ[VARIABLE]] if os.environ.get(VARIABLE) else []
 
 
 def _in_wheels() -> list[str]:

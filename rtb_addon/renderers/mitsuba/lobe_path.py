@@ -17,13 +17,13 @@ from .tables import Tables
 
 
 @dr.syntax
-def path_radiance(scene: mi.Scene, tables: Tables, sampler: mi.Sampler, ray, depth) -> list:
+def path_radiance(scene, tables: Tables, sampler, ray, depth) -> list:
     """
     Follow paths and return their radiance, a list of one mi.Float for each band of the tables.
 
     Parameters
     ----------
-    sampler : Mitsuba's, seeded, one sequence a path
+    scene, sampler : Mitsuba's; the sampler is seeded, one sequence a path
     ray : where the paths begin
     depth : longest path in Mitsuba's counting, a mi.UInt32 in memory
     """
@@ -39,7 +39,7 @@ def path_radiance(scene: mi.Scene, tables: Tables, sampler: mi.Sampler, ray, dep
     before_delta = mi.Bool(True)
 
     while active:
-        si = scene.ray_intersect(ray, mi.RayFlags.All, bounce == 1, active)
+        si = scene.ray_intersect(ray, ray_flags=mi.RayFlags.All, coherent=bounce == 1, active=active)
 
         # What the surface or the sky emits, weighed against having been found by light sampling.
         emitter = si.emitter(scene)

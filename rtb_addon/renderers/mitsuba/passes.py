@@ -22,7 +22,7 @@ from .lobe_path import path_radiance
 from .native import Native
 from .tables import Tables
 
-# Paths of a pass: some tenths of a second on one thread.
+# Paths of a pass, for some 32 bands: some tenths of a second on one thread.
 _PATHS = 2**18
 # More samples of a pixel than this are taken in several passes.
 _MOST_SAMPLES = 256
@@ -46,7 +46,8 @@ def render_passes(scene: mi.Scene, tables: Tables, native: Native, report: Repor
     samples = sampler.sample_count()
     sampler.set_samples_per_wavefront(samples)
     total = np.zeros((native.width * native.height, len(native.bands)))
-    planned = list(plan(native.width * native.height, samples, rounds, native.seed))
+    paths = _PATHS // max(1, len(native.bands) // 32)
+    planned = list(plan(native.width * native.height, samples, rounds, native.seed, paths))
     depth = dr.opaque(mi.UInt32, native.depth)
     for done, one in enumerate(planned):
         report(done / len(planned))
@@ -57,9 +58,9 @@ def render_passes(scene: mi.Scene, tables: Tables, native: Native, report: Repor
     return mean.reshape(native.height, native.width, -1).astype(np.float32), samples * rounds
 
 
-def plan(pixels: int, samples: int, rounds: int, seed: int) -> Iterator[Pass]:
-    """Yield the passes of a picture in the order in which they are added up."""
-    tile = max(1, _PATHS // samples)
+def plan(pixels: int, samples: int, rounds: int, seed: int, paths: int) -> Iterator[Pass]:
+    """Yield the passes of a picture, of so many paths, in the order in which they are added up."""
+    tile = max(1, paths // samples)
     number = 0
     for _ in range(rounds):
         for first in range(0, pixels, tile):

@@ -89,4 +89,5 @@ def check_pixels(radiance: np.ndarray) -> None:
 
 
 def _sentence(error: Exception) -> str:
-    return " ".join(str(error).split()).rstrip(".")
+    # A loop that drjit traces says only that something went wrong, its cause says what.
+    return " ".join(str(error.__cause__ or error).split()).rstrip(".")

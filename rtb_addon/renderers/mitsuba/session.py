@@ -13,7 +13,7 @@ def start(variant: str, threads: int) -> ModuleType:
     import drjit as dr
     import mitsuba as mi
 
-    if variant not in (mi.variant() or ""):
+    if mi.variant() != variant:
         mi.set_variant(variant)
     _send_messages_to_stderr(mi)
     dr.set_thread_count(threads)

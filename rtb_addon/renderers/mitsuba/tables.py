@@ -7,6 +7,7 @@ This module is imported only by what renders with Mitsuba, after its variant is 
 from __future__ import annotations
 
 import math
+from typing import Any
 
 import drjit as dr
 import mitsuba as mi
@@ -33,7 +34,7 @@ class Tables:
     suns : number of emitters that are discs in the sky
     """
 
-    def __init__(self, scene: mi.Scene, source: OneHotScene, bands: Bands, kind: BandKind) -> None:
+    def __init__(self, scene, source: OneHotScene, bands: Bands, kind: BandKind) -> None:
         self.padded_bands = -len(bands) % _PACKET + len(bands)
         self.lobes = source.lobes
         emitters = list(source.emitters.values())
@@ -67,9 +68,9 @@ class Tables:
         self._sun_narrowness = _table([e.narrowness for e, _ in suns])
         self._sun_directions = _table([np.negative(e.axis) for e, _ in suns])
 
-    def emitter_row(self, emitter, active) -> mi.UInt32:
+    def emitter_row(self, emitter, active) -> Any:
         """Return the row of each emitter."""
-        return dr.gather(mi.UInt32, self._emitter_rows, dr.reinterpret_array(mi.UInt32, emitter), active)
+        return dr.gather(mi.UInt32, self._emitter_rows, _number(emitter), active)
 
     def emission(self, row, active) -> list:
         """Return an emitter's spectrum, one mi.Float a band."""
@@ -77,7 +78,7 @@ class Tables:
 
     def reflectance(self, bsdf, lobe: int, active) -> list:
         """Return the spectrum of a material's lobe, one mi.Float a band."""
-        row = dr.gather(mi.UInt32, self._bsdf_rows, dr.reinterpret_array(mi.UInt32, bsdf), active)
+        row = dr.gather(mi.UInt32, self._bsdf_rows, _number(bsdf), active)
         return self._bands(self._reflectances, row * self.lobes + lobe, active)
 
     def beam(self, row, direction, active):
@@ -89,7 +90,7 @@ class Tables:
         t = dr.clip((cosine - first.w) * second.x, 0, 1)
         return t * t * (3 - 2 * t)
 
-    def narrowness(self, row, active) -> mi.Float:
+    def narrowness(self, row, active) -> Any:
         """Return 1 - cosine of half the angle of an emitter's disc, 0 for those that are none."""
         return self._beam(row, active)[1].y
 
@@ -102,12 +103,12 @@ class Tables:
         hit = apart < dr.gather(mi.Float, self._sun_narrowness, place)
         return hit, self._bands(self._sun_radiances, place, hit)
 
-    def _beam(self, row, active):
+    def _beam(self, row, active) -> Any:
         return [dr.gather(mi.Vector4f, self._beams, row * 2 + half, active) for half in range(2)]
 
     def _bands(self, table, row, active) -> list:
         packets = self.padded_bands // _PACKET
-        found = [dr.gather(mi.Vector4f, table, row * packets + k, active) for k in range(packets)]
+        found: list[Any] = [dr.gather(mi.Vector4f, table, row * packets + k, active) for k in range(packets)]
         return [packet[k] for packet in found for k in range(_PACKET)]
 
 
@@ -116,16 +117,21 @@ def _steepness(emitter: Emitter) -> float:
     return min(_HARD, 1 / width) if width > 0 else _HARD
 
 
-def _table(rows) -> mi.Float:
+def _table(rows) -> Any:
     """Return numbers in memory, so that no kernel depends on them."""
     flat = np.asarray(rows, np.float32).ravel()
     return mi.Float(flat if len(flat) else np.zeros(1, np.float32))
 
 
-def _rows_by_pointer(pointers: dict, ids) -> mi.UInt32:
+def _number(pointer) -> Any:
+    """Return Mitsuba's numbers of the objects that pointers point to; 0 is none."""
+    return dr.reinterpret_array(mi.UInt32, pointer)
+
+
+def _rows_by_pointer(pointers: dict, ids) -> Any:
     """Return a table from Mitsuba's numbers of objects to our rows."""
     order = {id: row for row, id in enumerate(ids)}
-    numbers = {id: int(dr.reinterpret_array(mi.UInt32, pointer)[0]) for id, pointer in pointers.items()}
+    numbers = {id: int(_number(pointer)[0]) for id, pointer in pointers.items()}
     rows = np.zeros(max(numbers.values(), default=0) + 1, np.uint32)
     for id, number in numbers.items():
         rows[number] = order[id]
