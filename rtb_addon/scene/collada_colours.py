@@ -28,6 +28,9 @@ class Effect(NamedTuple):
     textured: bool
 
 
+NO_EFFECT = Effect(None, (0.0, 0.0, 0.0), False)
+
+
 class Lamp(NamedTuple):
     """
     A lamp's own words.
@@ -51,7 +54,7 @@ def read_effect(effect: Element) -> Effect:
     if technique is not None:
         shading = next((each for each in technique if local_name(each) in _SHADINGS), None)
     if shading is None:
-        return Effect(None, (0.0, 0.0, 0.0), False)
+        return NO_EFFECT
     diffuse = child(shading, "diffuse")
     textured = diffuse is not None and child(diffuse, "texture") is not None
     return Effect(_colour(diffuse), _colour(child(shading, "emission")) or (0.0, 0.0, 0.0), textured)

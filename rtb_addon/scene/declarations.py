@@ -79,7 +79,7 @@ def parameters_of(
         elif default is not None:
             chosen[name] = default
         else:
-            raise declared.error(f"{declared.id} needs a {name}, {declared.model} has none of its own")
+            raise declared.error(f"{declared.id} must say its {name}, {declared.model} has no default for it")
     return chosen
 
 

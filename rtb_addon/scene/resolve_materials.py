@@ -9,7 +9,7 @@ from ..errors import at
 from ..spectra import Spectrum, Unit
 from ..spectra.promotion import promoted
 from .adjustments import Remark
-from .collada_colours import Effect, read_effect
+from .collada_colours import NO_EFFECT, Effect, read_effect
 from .collada_sources import child
 from .declarations import Declaration, parameters_of
 from .document import Scene
@@ -90,8 +90,9 @@ class Materials:
 
     def _effect(self, id: str) -> Effect:
         material = self.document.linked(f"#{id}", "material")
-        used = child(material, "instance_effect")
-        effect = self.document.linked(None if used is None else used.get("url"), "effect")
+        if (used := child(material, "instance_effect")) is None:
+            return NO_EFFECT
+        effect = self.document.linked(used.get("url"), "effect")
         with at(self.document.file, self.document.line_of(effect)):
             return read_effect(effect)
 

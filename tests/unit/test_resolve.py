@@ -15,7 +15,6 @@ from rtb_addon.scene.build import Placement, SceneBuilder
 from rtb_addon.scene.document import Scene
 from rtb_addon.scene.render_scene import Film
 from rtb_addon.scene.resolve import SceneSettings, resolve
-from rtb_addon.spectra.promotion import promoted
 
 RTB3 = Path(os.environ.get("RTB3_FOLDER", Path(__file__).resolve().parents[3] / "shared" / "rtb3"))
 SETTINGS = SceneSettings(Film(320, 240))
@@ -554,7 +553,7 @@ MATTE = "Paint-material:material:matte"
             3,
             "alphaU is 'few', want one number",
         ),
-        (["Paint-material:material:metal"], 2, "Paint-material needs a eta"),
+        (["Paint-material:material:metal"], 2, "Paint-material must say its eta"),
         (["Lamp-light:light:pont"], 2, "no light is called pont, want one of point"),
         (
             ["Lampe-light:light:point"],
@@ -746,9 +745,28 @@ def test_resolving_twice_gives_the_same_bytes():
     assert meshes[0] == meshes[1]
 
 
-def test_a_promoted_grey_is_flat_and_the_primaries_add_up_to_white():
-    wavelengths = np.arange(360, 831)
-    np.testing.assert_allclose(promoted((0.3, 0.3, 0.3)).at(wavelengths), 0.3)
-    total = sum(promoted(colour).at(wavelengths) for colour in np.eye(3))
-    np.testing.assert_allclose(total, 1)
-    assert promoted((-1, 0, 0)).values.min() == 0
+def test_an_object_with_a_skeleton_is_left_out_and_said():
+    controller = '<library_controllers><controller id="Rig"/></library_controllers>'
+    node = '<node id="Arm"><instance_controller url="#Rig"/></node>'
+    found = resolved(with_nodes(CAMERA + LAMP + wall() + node, library=controller))
+    assert "Arm follows a skeleton or morph and is left out" in found.warnings
+
+
+def test_links_that_lead_nowhere_are_errors():
+    text = room().tobytes().decode()
+    for link, words in (("#Wall-mesh", "no geometry #Gone"), ("#Lamp-light", "no light #Gone")):
+        with pytest.raises(RecipeError, match=words):
+            resolved(text.replace(f'url="{link}"', 'url="#Gone"').encode())
+
+
+def test_a_material_without_an_effect_is_grey():
+    text = room().tobytes().decode()
+    start = text.index("<instance_effect")
+    bare = text[:start] + text[text.index("/>", start) + 2 :]
+    assert (
+        resolved(bare.encode())
+        .scene.materials["Paint-material"]
+        .parameters["diffuseReflectance"]
+        .values.tolist()
+        == [0.5] * 4
+    )
