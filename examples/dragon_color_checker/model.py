@@ -4,8 +4,9 @@ Model the colour checker of monkeys and export it as a recipe.
     python examples/dragon_color_checker/model.py -- --output FOLDER            (with the bpy package)
     blender -b --python examples/dragon_color_checker/model.py -- --output FOLDER
 
-The paper's DragonColorChecker: one scene, 24 conditions, in each of which the figure is painted like one patch
-of the ColorChecker; the montage of all 24 looks like the chart. RenderToolbox must be installed as an extension.
+The paper's DragonColorChecker: one scene, 24 conditions, in each of which the figure is painted like one
+patch of the ColorChecker; the montage of all 24 looks like the chart. RenderToolbox must be installed as an
+extension.
 """
 
 import argparse
