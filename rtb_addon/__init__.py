@@ -20,10 +20,11 @@ if TYPE_CHECKING:
     from .recipe import Recipe, write_recipe
     from .recipe_options import Conventions, MontageOptions, RecipeOptions
     from .scene.build import SceneBuilder
-    from .spectra import Spectrum
+    from .spectra import Bands, Spectrum
     from .spectral_image import SpectralImage
 
 __all__ = [
+    "Bands",
     "Condition",
     "Conditions",
     "Conventions",
@@ -53,7 +54,7 @@ _ROOMS = {
     ".recipe": ("Recipe", "write_recipe"),
     ".recipe_options": ("Conventions", "MontageOptions", "RecipeOptions"),
     ".scene.build": ("SceneBuilder",),
-    ".spectra": ("Spectrum",),
+    ".spectra": ("Bands", "Spectrum"),
     ".spectral_image": ("SpectralImage",),
 }
 _PLACES = {name: room for room, names in _ROOMS.items() for name in names}

@@ -87,7 +87,7 @@ def _events(
     cancelled: Callable[[], bool],
 ) -> Iterator[Event]:
     keys = _keys(recipe, chosen)
-    yield Event("started")
+    yield Event("started", warnings=(*recipe.unknown_words(), *recipe.resources.warnings))
     waiting = []
     for condition in chosen:
         if not fresh and (done := found(recipe, condition, keys[condition.name])) is not None:
@@ -169,7 +169,7 @@ class _Batch:
         """Write an event of note into the recipe's log."""
         said = {
             name: value
-            for name in ("condition", "renderer", "message", "details", "seconds", "file")
+            for name in ("condition", "renderer", "message", "details", "seconds", "file", "warnings")
             if (value := getattr(event, name))
         }
         if event.kind in {"started", "finished", "cancelled"} and not event.condition:

@@ -67,7 +67,8 @@ def import_files(said: Namespace) -> int:
     )
     for sentence in warnings:
         print(sentence, file=sys.stderr)
-    print(f"{recipe.name}: {len(recipe.conditions)} conditions in {recipe.folder}")
+    count = len(recipe.conditions)
+    print(f"{recipe.name}: {count} condition{'s' * (count != 1)} in {recipe.folder}")
     return 0
 
 

@@ -19,7 +19,7 @@ from .keys import texture_names
 from .mappings import Mappings, parse_mappings
 from .recipe import CONDITIONS, Recipe, write_recipe
 from .recipe_options import Conventions, MontageOptions, RecipeOptions
-from .resources import leads_outside
+from .resources import leads_outside, listed
 from .scene.document import Scene
 from .spectra.library import served
 
@@ -163,10 +163,11 @@ class _Wanted:
 
     def sentences(self) -> Iterator[str]:
         """Yield what somebody should know about files that were not found."""
+        stand_ins = [name for name in self._missing if served(name) is not None]
+        if stand_ins:
+            yield f"not found, the library's own will be served: {listed(stand_ins)}"
         for name in self._missing:
-            if served(name) is not None:
-                yield f"{name} was not found, the library's own is served in its place"
-            else:
+            if name not in stand_ins:
                 yield f"{name} was not found, name its folder with --data or put it into resources/"
 
     def _own(self, condition: Condition, document: Scene, mappings: Mappings) -> tuple[Scene, Mappings]:

@@ -8,6 +8,7 @@ from pathlib import Path
 from types import TracebackType
 
 from .background import Event
+from .resources import listed
 
 
 class ProgressBar:
@@ -71,7 +72,7 @@ class ProgressBar:
         for sentence in self._warnings:
             print(f"warning: {sentence}", file=sys.stderr)
         for sentence, names in self._failed.items():
-            print(f"{sentence} ({_some(names)})", file=sys.stderr)
+            print(f"{sentence} ({listed(names)})", file=sys.stderr)
         done, cached, failed = self._counts.values()
         print(f"{done} rendered, {cached} found done, {failed} failed", end="")
         print(f", {event.total - event.finished} not begun or stopped" * (event.kind == "cancelled"))
@@ -85,8 +86,3 @@ def _clock(seconds: float) -> str:
     minutes, rest = divmod(round(seconds), 60)
     hours, minutes = divmod(minutes, 60)
     return f"{hours}:{minutes:02}:{rest:02}" if hours else f"{minutes}:{rest:02}"
-
-
-def _some(names: list[str]) -> str:
-    more = f" and {len(names) - 3} more" if len(names) > 3 else ""
-    return ", ".join(names[:3]) + more

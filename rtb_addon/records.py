@@ -37,7 +37,7 @@ def record(
         "library version": library_version(),
         **key.versions,
         "seconds": round(seconds, 3),
-        "warnings": [*recipe.resources.warnings, *warnings],
+        "warnings": list(warnings),
         "date": _now(),
     }
 

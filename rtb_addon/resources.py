@@ -6,7 +6,6 @@ import os
 import shutil
 import tempfile
 import weakref
-from contextlib import suppress
 from functools import cached_property
 from pathlib import Path, PurePosixPath, PureWindowsPath
 from urllib.parse import unquote
@@ -26,12 +25,12 @@ class Resources:
 
     Attributes
     ----------
-    warnings : one sentence for each file that came from the library
+    served : names of the files that came from the library
     """
 
     def __init__(self, folder: Path) -> None:
         self.folder = folder
-        self.warnings: list[str] = []
+        self.served: list[str] = []
         self._found: dict[str, Path | None] = {}
 
     def find(self, name: str) -> Path | None:
@@ -46,6 +45,13 @@ class Resources:
             if self._found[name] is None:
                 refuse_outside(name)
         return self._found[name]
+
+    @property
+    def warnings(self) -> list[str]:
+        """What somebody should know about where files came from, a sentence each."""
+        if not self.served:
+            return []
+        return [f"the library's own went into resources/ for what the recipe lacked: {listed(self.served)}"]
 
     def _inside(self, name: str) -> Path | None:
         for plain in dict.fromkeys((name.replace("\\", "/"), unquote(name.removeprefix("file://")))):
@@ -77,22 +83,26 @@ class Resources:
     def _served(self, name: str) -> Path | None:
         if (spectrum := served(name)) is None:
             return None
-        self.warnings.append(
-            f"{name} is not in the recipe's folder, the library's own was put into resources/"
-        )
-        text, file = spd_text(spectrum), PureWindowsPath(name).name
-        for place in (self.folder / "resources", self._elsewhere):
-            # A recipe that may only be read can still be checked.
-            with suppress(RecipeError):
-                write_text(place / file, text)
-                return place / file
-        return None
+        self.served.append(name)
+        file, text = PureWindowsPath(name).name, spd_text(spectrum)
+        try:
+            write_text(self.folder / "resources" / file, text)
+            return self.folder / "resources" / file
+        except RecipeError:  # a recipe that may only be read can still be checked
+            write_text(self._elsewhere / file, text)
+            return self._elsewhere / file
 
     @cached_property
     def _elsewhere(self) -> Path:
         folder = tempfile.mkdtemp(prefix="rtb-")
         weakref.finalize(self, shutil.rmtree, folder, ignore_errors=True)
         return Path(folder)
+
+
+def listed(names: list[str], most: int = 3) -> str:
+    """Return some names for a sentence, the first ones of many."""
+    rest = len(names) - most
+    return ", ".join(names[:most]) + (f" and {rest} more" if rest > 0 else "")
 
 
 def leads_outside(name: str) -> bool:

@@ -141,6 +141,25 @@ def test_a_child_is_told_where_wheels_outside_site_packages_lie(tmp_path, monkey
     assert import_folders()[0] == str(Path(__file__).parents[2])
 
 
+def test_a_child_starts_from_an_extension_s_own_package_name(tmp_path):
+    (tmp_path / "bl_ext").mkdir()
+    (tmp_path / "bl_ext" / "render_toolbox").symlink_to(Path(__file__).parents[2])
+    code = (
+        "from bl_ext.render_toolbox.rtb_addon.background import start_child;"
+        "child = start_child(['renderers']); print(*child.communicate())"
+    )
+    environment = {**os.environ, "PYTHONPATH": str(tmp_path)}
+    done = subprocess.run(
+        [sys.executable, "-c", code],
+        env=environment,
+        cwd=tmp_path,
+        capture_output=True,
+        text=True,
+        check=True,
+    )
+    assert "tracer" in done.stdout
+
+
 def test_importing_the_package_costs_nothing_and_brings_nothing():
     code = (
         "import sys, time; t = time.perf_counter(); import rtb_addon; t = time.perf_counter() - t;"

@@ -212,6 +212,15 @@ def test_a_missing_spectrum_file_fails_in_one_sentence_and_the_others_go_on(writ
     assert cube(recipe, "b").radiance.shape == (3, 4, 31)
 
 
+def test_the_batch_says_which_spectra_the_library_served(write_family):
+    recipe = write_family({"a": "mccBabel-1.spd", "b": "mccBabel-2.spd"})
+    first = next(iter(render_recipe(recipe.folder, jobs=1)))
+    served = (
+        "the library's own went into resources/ for what the recipe lacked: mccBabel-1.spd, mccBabel-2.spd"
+    )
+    assert first.warnings == (served,)
+
+
 def test_a_failed_rendering_is_one_sentence_and_its_details_are_in_the_log(write_family):
     recipe = write_family({"fails": "0.5", "stumbles": "0.5", "good": "0.5"})
     assert rendered(recipe) == {"fails": "failed", "stumbles": "failed", "good": "done"}
@@ -325,9 +334,7 @@ def test_a_batch_in_a_folder_that_another_renders_is_refused(write_family):
 
 def test_finding_a_condition_done_takes_under_two_milliseconds(write_family):
     names = [f"c{number:03}" for number in range(200)]
-    recipe = write_family(
-        dict.fromkeys(names, "0.5"), width=1, height=1, bands=(400.0, 100.0, 3), samples=1
-    )
+    recipe = write_family(dict.fromkeys(names, "0.5"), width=1, height=1, bands=(400.0, 100.0, 3), samples=1)
     for name in names:
         render_condition(recipe, name, lambda _: None)
     began = time.process_time()

@@ -190,7 +190,7 @@ def test_import_makes_a_folder_that_holds_all_it_needs(tmp_path, run, old_recipe
     found = {f.relative_to(tmp_path / "new" / "resources") for f in (tmp_path / "new/resources").rglob("*.*")}
     assert {str(file) for file in found} == {"beside.spd", "inside.spd", "far.spd", "stone.png"}
     assert error.splitlines() == [
-        "D65.spd was not found, the library's own is served in its place",
+        "not found, the library's own will be served: D65.spd",
         "gone.spd was not found, name its folder with --data or put it into resources/",
     ]
     recipe = Recipe.load(tmp_path / "new")

@@ -168,7 +168,8 @@ def test_a_spectrum_that_old_recipes_could_rely_on_is_put_into_resources_with_a_
     file = recipe.find_file("mccBabel-1.spd")
     assert file == recipe.folder / "resources" / "mccBabel-1.spd"
     assert file.read_text().startswith("380 ")
-    assert len(recipe.resources.warnings) == 1
+    sentence = "the library's own went into resources/ for what the recipe lacked: mccBabel-1.spd"
+    assert recipe.resources.warnings == [sentence]
     assert recipe.find_file("elsewhere/../../D65.spd") == recipe.folder / "resources" / "D65.spd"
 
 
