@@ -1,11 +1,14 @@
 """The internal tracer against closed forms: every light, both sides, every camera."""
 
 import re
+import sys
 
 import numpy as np
 import pytest
 
 from rtb_addon.errors import Cancelled, RenderingError
+from rtb_addon.renderers import find
+from rtb_addon.renderers.interface import RenderOptions
 from rtb_addon.renderers.tracer import integrate
 from rtb_addon.renderers.tracer.bvh import Bvh
 from rtb_addon.renderers.tracer.kernels import Embree
@@ -351,6 +354,15 @@ def test_numpy_and_embree_give_the_same_picture():
     embrees, other = integrate.render(busy_room(), lambda fraction: None, Embree)
     assert (name, other.split()[0]) == ("numpy", "embreex")
     np.testing.assert_allclose(numpys, embrees, atol=1e-6 * embrees.max())
+
+
+def test_without_embree_the_tracer_renders_with_numpy(tmp_path, monkeypatch):
+    monkeypatch.setitem(sys.modules, "embreex.mesh_construction", None)
+    tracer = find("tracer")
+    native = tracer.translate(scene([FLOOR], [lamp("directional", matrix())]), (), tmp_path, "scene")
+    image = tracer.render(native, RenderOptions(), lambda fraction: None)
+    assert image.attributes["ray_kernel"] == "numpy"
+    np.testing.assert_allclose(image.radiance[0, 0], reflected(1.0), rtol=1e-6)
 
 
 @pytest.mark.parametrize("kernel", [Bvh, Embree])

@@ -224,6 +224,7 @@ def _reflected(world: World, paths: Paths, hits: Hits) -> tuple[Paths, Hits]:
     bright = world.materials.reflects[material]
     rows, material = rows[bright], material[bright]
     kept = paths.only(rows)
+    # In place even where nothing was left out: nobody asks for the paths as they came.
     np.multiply(kept.throughput, world.materials.reflectance.take(material, axis=0), out=kept.throughput)
     return kept, hits.only(rows)
 
@@ -233,7 +234,7 @@ def _scattered(paths: Paths, places: Places, draw: Pair) -> Paths:
     directions = scattered(places.normals, *draw)
     density = lobe(dot(places.normals, directions))
     onward = Paths(paths.number, places.start, directions, None, density, paths.throughput)
-    return onward.only(np.nonzero(dot(places.faces, directions) > 0)[0])
+    return onward.only(np.nonzero((dot(places.faces, directions) > 0) & (density > 0))[0])
 
 
 def _depth(scene: RenderScene) -> int:
