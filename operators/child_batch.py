@@ -9,7 +9,7 @@ from pathlib import Path
 
 from ..rtb_addon.background import Event, EventStream, start_child, stop
 
-GRACE = 0.8  # [s] that a child has to stop when asked, before it is ended
+GRACE = 0.5  # [s] that a child has to stop when asked, before it is ended
 NICENESS = 5
 
 

@@ -6,6 +6,7 @@ from ..operators import findings, running
 from ..operators.export_recipe import RTB_OT_export_recipe
 from ..operators.render_recipe import RTB_OT_render_recipe
 from ..operators.show_montage import RTB_OT_show_montage
+from ..rtb_addon.blender.folders import recipe_name
 from .progress import draw_progress
 from .sentences import draw_sentences
 
@@ -23,7 +24,7 @@ class RTB_PT_recipe(bpy.types.Panel):
         layout = self.layout
         layout.use_property_split = True
         layout.use_property_decorate = False
-        draw_options(layout, context.scene.rtb)
+        draw_options(layout, context.scene)
         layout.separator()
         draw_run(layout)
         width = context.region.width
@@ -31,9 +32,10 @@ class RTB_PT_recipe(bpy.types.Panel):
         draw_sentences(layout, findings.remarks, width)
 
 
-def draw_options(layout, settings) -> None:
+def draw_options(layout, scene) -> None:
     """Draw where the recipe goes and how it is rendered."""
-    layout.prop(settings, "name")
+    settings = scene.rtb
+    layout.prop(settings, "name", placeholder=recipe_name(scene))
     layout.prop(settings, "folder")
     layout.prop(settings, "renderer")
     column = layout.column(align=True)

@@ -30,5 +30,11 @@ def draw_sentence(layout, sentence: str, width: int, icon: str) -> None:
     letters = max(int((width / scale - MARGIN) / LETTER), 12)
     column = layout.column(align=True)
     column.scale_y = 0.8
-    for number, line in enumerate(textwrap.wrap(sentence, letters)):
+    for number, line in enumerate(textwrap.wrap(begun(sentence), letters)):
         column.label(text=line, icon="BLANK1" if number else icon)
+
+
+def begun(sentence: str) -> str:
+    """Return a sentence with a capital where it begins with a word, and not with a file's name."""
+    first = sentence.split(maxsplit=1)[0] if sentence.strip() else ""
+    return sentence[:1].upper() + sentence[1:] if first.isalpha() else sentence

@@ -22,6 +22,9 @@ class RecordingLayout:
 
     column = box = row
 
+    def panel(self, name: str, **_):
+        return self.row(), self.row()
+
     def prop(self, owner, name: str, **_) -> None:
         assert name in owner.bl_rna.properties, f"{owner} has no {name}"
         self.drawn.append(("prop", name))

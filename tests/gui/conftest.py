@@ -18,6 +18,7 @@ ROOT = Path(__file__).resolve().parents[2]
 HERE = Path(__file__).parent
 PICTURES = ROOT / "build/screenshots"
 INSTALLER = ROOT.parent / "shared/bin/install-blender"
+SCREEN = "1280x800x24"  # nothing may be cut off in a window as small as this
 MISSING = "NO REAL BLENDER: the room tests/gui did not run; set BLENDER to a Blender 5.2 program"
 
 
@@ -27,7 +28,7 @@ class RealBlender(NamedTuple):
     program: Path
     environment: dict[str, str]
 
-    def run(self, *arguments: str, timeout: float = 120) -> subprocess.CompletedProcess:
+    def run(self, *arguments: str, timeout: float = 300) -> subprocess.CompletedProcess:
         """Run Blender with factory settings for everything but the extension, and return how it went."""
         command = [str(self.program), *arguments]
         return subprocess.run(
@@ -63,7 +64,7 @@ def blender(tmp_path_factory) -> RealBlender:
     if (program := find_program()) is None:
         pytest.skip(MISSING)
     folder = tmp_path_factory.mktemp("blender-user")
-    real = RealBlender(program, {**os.environ, "BLENDER_USER_RESOURCES": str(folder)})
+    real = RealBlender(program, {**os.environ, "BLENDER_USER_RESOURCES": str(folder), "RTB_SCREEN": SCREEN})
     archive = build_zip(real, tmp_path_factory.mktemp("dist"))
     installed = real.run("--command", "extension", "install-file", "-r", "user_default", "-e", str(archive))
     assert (folder / "extensions/user_default/render_toolbox/blender_manifest.toml").is_file(), (

@@ -64,14 +64,17 @@ class Driver:
     def photograph(self, name: str) -> np.ndarray:
         """Photograph the screen and return its pixels, (height, width, 3) from the bottom up."""
         file = self.pictures / f"{name}.png"
-        subprocess.run(["xshot", str(file)], check=True)
+        for attempt in range(3):  # X is not always in the mood, for instance while a menu opens
+            if subprocess.run(["xshot", str(file)], check=attempt == 2).returncode == 0:
+                break
         image = bpy.data.images.load(str(file))
         width, height = image.size
         pixels = np.empty(width * height * 4, np.float32)
         image.pixels.foreach_get(pixels)
         bpy.data.images.remove(image)
         rgb = (pixels.reshape(height, width, 4)[..., :3] * 255).round().astype(np.uint8)
-        self.report.setdefault("colours", {})[name] = len(np.unique(rgb.reshape(-1, 3), axis=0))
+        packed = rgb.astype(np.uint32) @ np.array([1 << 16, 1 << 8, 1], np.uint32)
+        self.report.setdefault("colours", {})[name] = len(np.unique(packed))
         return rgb
 
     def button_rows(self, picture: np.ndarray, region, from_left: float = 0.15) -> list[tuple[int, int]]:

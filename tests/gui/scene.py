@@ -17,7 +17,7 @@ def extension(module: str):
 def make_recipe(folder: Path, count: int, renderer: str, samples: int, size: tuple[int, int]) -> None:
     """Save the default scene in a folder as a recipe of so many conditions."""
     scene = bpy.context.scene
-    tag(bpy.data.materials[0], bpy.data.lights[0])
+    tag(bpy.data.materials["Material"], bpy.data.lights["Light"])
     settings = scene.rtb
     rows = [[patch, f"BabelColor Average/{patch}"] for patch in PATCHES[:count]]
     extension("rtb_addon.blender").set_conditions(scene, ["imageName", "paint"], rows)
