@@ -52,8 +52,8 @@ class Surfaces:
     """
     All triangles of a scene in the world.
 
-    A mirrored shape (negative determinant) follows Mitsuba: a flat triangle's normal follows the order of
-    its corners after the transform; a mesh with normals keeps the side that they point to.
+    A mirrored shape (negative determinant) keeps its outside, as in Blender: its normals are those of
+    its mesh, transformed.
 
     Attributes
     ----------
@@ -135,9 +135,8 @@ def _corners(shape: Shape) -> FloatArray:
 
 
 def _side(shape: Shape) -> float:
-    """Return -1 where the corners' order and the mesh's own normals disagree, else 1."""
-    mirrored = np.linalg.det(shape.to_world[:3, :3]) < 0
-    return -1.0 if mirrored and shape.mesh.normals is not None else 1.0
+    """Return -1 for a mirrored shape, whose corners turn the other way in the world, else 1."""
+    return -1.0 if np.linalg.det(shape.to_world[:3, :3]) < 0 else 1.0
 
 
 def _shading_normals(shapes: Sequence[Shape], flat: FloatArray) -> FloatArray | None:
