@@ -39,8 +39,9 @@ def draw_options(layout, scene) -> None:
     layout.prop(settings, "folder")
     layout.prop(settings, "renderer")
     column = layout.column(align=True)
-    column.prop(settings, "width")
-    column.prop(settings, "height")
+    column.prop(scene.render, "resolution_x", text="Width")
+    column.prop(scene.render, "resolution_y", text="Height")
+    column.prop(scene.render, "resolution_percentage", text="%")
     layout.prop(settings, "samples")
 
 

@@ -64,19 +64,18 @@ def corners(values: ArrayLike, triangles: IntArray) -> Corners:
         return Corners(given, triangles)
     if given.shape[:2] != triangles.shape:
         raise ValueError(f"{given.shape[:2]} corners for {triangles.shape} triangles")
-    rows = given.reshape(-1, given.shape[2]) + np.float32(0)  # no -0
-    first, places = _distinct(rows)
-    return Corners(rows[first], places.reshape(triangles.shape))
+    shared = distinct(given.reshape(-1, given.shape[2]))
+    return Corners(shared.values, shared.indices.reshape(triangles.shape))
 
 
-def _distinct(rows: FloatArray) -> tuple[IntArray, IntArray]:
-    """Return the first place of each distinct row, and for each row which one it is."""
-    words = np.ascontiguousarray(rows, np.float32).view(np.uint32).astype(np.uint64)
+def distinct(rows: FloatArray) -> Corners:
+    """Return each different row once, and for every row which one it is: (rows,) indices."""
+    rows = np.ascontiguousarray(rows, np.float32) + np.float32(0)  # no -0
     keys = np.zeros(len(rows), np.uint64)
-    for column in words.T:
+    for column in rows.view(np.uint32).astype(np.uint64).T:
         keys = (keys ^ column) * np.uint64(0x9E3779B97F4A7C15)
         keys ^= keys >> np.uint64(29)
     _, first, places = np.unique(keys, return_index=True, return_inverse=True)
-    if not np.array_equal(rows[first][places], rows):  # two rows share a key: rare, and slow is good enough
+    if not np.array_equal(rows[first][places.ravel()], rows):  # two rows share a key: rare, slow is fine
         _, first, places = np.unique(rows, axis=0, return_index=True, return_inverse=True)
-    return first, places.ravel()
+    return Corners(rows[first], places.ravel())

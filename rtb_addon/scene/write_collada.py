@@ -56,22 +56,36 @@ def camera(id: str, name: str, view: Element, shift: tuple[float, float]) -> Ele
     return new("camera", optics, _extra(moved), id=id, name=name)
 
 
-def perspective(xfov: float, aspect: float, clip: tuple[float, float]) -> Element:
-    """Return a view: angle across the width [degrees], width by height, near and far [scene units]."""
-    return new("perspective", new("xfov", sid="xfov", text=number(xfov)), *_view(aspect, clip))
+def perspective(xfov: float, aspect: float, clip: tuple[float, float], yfov: float | None = None) -> Element:
+    """
+    Return a perspective view.
+
+    Parameters
+    ----------
+    xfov : angle across the width of the picture [degrees]
+    aspect : width by height of the picture; not written where yfov is given
+    clip : near and far [scene units]
+    yfov : angle across the height [degrees], where pixels are not square
+    """
+    height = _aspect(aspect) if yfov is None else new("yfov", sid="yfov", text=number(yfov))
+    return new("perspective", new("xfov", sid="xfov", text=number(xfov)), height, *_clip(clip))
 
 
-def orthographic(width: float, aspect: float, clip: tuple[float, float]) -> Element:
-    """Return a parallel view of a width [scene units], of which Collada writes the half."""
-    return new("orthographic", new("xmag", sid="xmag", text=number(width / 2)), *_view(aspect, clip))
+def orthographic(
+    width: float, aspect: float, clip: tuple[float, float], height: float | None = None
+) -> Element:
+    """Return a parallel view of a width and perhaps a height [scene units]; Collada writes the halves."""
+    second = _aspect(aspect) if height is None else new("ymag", sid="ymag", text=number(height / 2))
+    return new("orthographic", new("xmag", sid="xmag", text=number(width / 2)), second, *_clip(clip))
 
 
-def _view(aspect: float, clip: tuple[float, float]) -> list[Element]:
-    return [
-        new("aspect_ratio", text=number(aspect)),
-        new("znear", sid="znear", text=number(clip[0])),
-        new("zfar", sid="zfar", text=number(clip[1])),
-    ]
+def _aspect(aspect: float) -> Element:
+    return new("aspect_ratio", text=number(aspect))
+
+
+def _clip(clip: tuple[float, float]) -> list[Element]:
+    near, far = map(number, clip)
+    return [new("znear", sid="znear", text=near), new("zfar", sid="zfar", text=far)]
 
 
 def light(id: str, name: str, kind: str, colour: Colour, cone: float, blend: float) -> Element:

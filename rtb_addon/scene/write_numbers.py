@@ -23,6 +23,11 @@ def numbers(values: ArrayLike) -> str:
     return " ".join(map(number, np.ravel(np.asarray(values, float))))
 
 
+def shortest(value: float) -> float:
+    """Return the decimal number with the fewest digits that is the same in single precision."""
+    return float(str(np.float32(value)))
+
+
 def floats(values: ArrayLike) -> str:
     """Return an array of single-precision numbers, row by row; none is changed by being written."""
     flat = np.ascontiguousarray(values, np.float32).ravel() + np.float32(0)  # no -0

@@ -1,0 +1,37 @@
+"""Where a scene's recipe goes, and where the files lie that it names."""
+
+from __future__ import annotations
+
+import re
+from pathlib import Path
+
+import bpy
+
+from ..errors import RecipeError
+
+_UNSAFE = re.compile(r'[\x00-\x1f<>:"/\\|?*]')
+
+
+def recipe_name(scene) -> str:
+    """Return the name of a scene's recipe: what it says, else that of the .blend, else the scene's."""
+    name = scene.rtb.name.strip() or Path(bpy.data.filepath).stem or scene.name
+    return _UNSAFE.sub("_", name).strip(" .") or "recipe"
+
+
+def recipe_folder(scene) -> Path:
+    """Return the folder that a scene's recipe is written to."""
+    said = (scene.rtb.folder.strip() or "//rtb/NAME/").replace("NAME", recipe_name(scene))
+    if said.startswith("//") and not bpy.data.filepath:
+        raise RecipeError(f"the recipe's folder {said} is relative to the .blend file: save that first")
+    return Path(bpy.path.abspath(said))
+
+
+def typed(text: str, owner) -> str:
+    """Return a spectrum as typed into a property of a datablock, a ``//`` file with its whole path."""
+    text = text.strip()
+    return bpy.path.abspath(text, library=owner.library) if text.startswith("//") else text
+
+
+def blend_folder() -> Path | None:
+    """Return the folder of the .blend file, where relative files are looked for; None when unsaved."""
+    return Path(bpy.data.filepath).parent if bpy.data.filepath else None

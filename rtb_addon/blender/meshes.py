@@ -1,0 +1,87 @@
+"""Evaluated meshes as surfaces: what Blender's own renderers would see of them, in arrays."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from contextlib import contextmanager
+
+import numpy as np
+
+from ..scene.surface import Corners, IntArray, Surface, distinct
+from ..spectra import FloatArray
+
+# Objects that have triangles, by themselves or once they are evaluated.
+WITH_SURFACE = ("MESH", "CURVE", "SURFACE", "FONT", "META")
+
+
+@contextmanager
+def evaluated_mesh(object_) -> Iterator:
+    """Yield the mesh of an evaluated object, or None where it has none."""
+    if object_.type == "MESH":
+        yield object_.data
+        return
+    mesh = object_.to_mesh()
+    try:
+        yield mesh
+    finally:
+        object_.to_mesh_clear()
+
+
+def surface_of(mesh, symbols: tuple[str, ...]) -> Surface | None:
+    """
+    Return a mesh as a surface, or None when it has no faces.
+
+    Parameters
+    ----------
+    symbols : names for the materials of its slots
+    """
+    if mesh is None or len(mesh.polygons) == 0:
+        return None
+    vertices = _read(mesh.vertices, "co", 3)
+    mesh.calc_loop_triangles()
+    triangles = _read_indices(mesh.loop_triangles, "vertices", 3)
+    loops = _read_indices(mesh.loop_triangles, "loops", 3)
+    polygons = _read_indices(mesh.loop_triangle_polygons, "value", 1)[:, 0]
+    parts = np.minimum(_slots(mesh), max(len(symbols) - 1, 0))[polygons]
+    return Surface(
+        vertices, triangles, _normals(mesh, triangles, loops, polygons), _uvs(mesh, loops), parts, symbols
+    )
+
+
+def _normals(mesh, triangles: IntArray, loops: IntArray, polygons: IntArray) -> Corners:
+    """Return the normals of corners: of vertices where all is smooth, of faces where all is flat."""
+    if mesh.normals_domain == "POINT":
+        return Corners(_read(mesh.vertex_normals, "vector", 3), triangles)
+    if mesh.normals_domain == "FACE":
+        return Corners(_read(mesh.polygon_normals, "vector", 3), np.repeat(polygons[:, None], 3, axis=1))
+    shared = distinct(_read(mesh.corner_normals, "vector", 3))
+    return Corners(shared.values, shared.indices[loops])
+
+
+def _uvs(mesh, loops: IntArray) -> Corners | None:
+    layer = next((layer for layer in mesh.uv_layers if layer.active_render), None)
+    if layer is None:
+        return None
+    shared = distinct(_read(layer.uv, "vector", 2))
+    return Corners(shared.values, shared.indices[loops])
+
+
+def _slots(mesh) -> IntArray:
+    """(polygons,) array: the material slot of each face"""
+    attribute = mesh.attributes.get("material_index")
+    slots = np.zeros(len(mesh.polygons), np.int32)
+    if attribute is not None and attribute.domain == "FACE":
+        attribute.data.foreach_get("value", slots)
+    return np.maximum(slots, 0)
+
+
+def _read(collection, name: str, width: int) -> FloatArray:
+    values = np.empty(len(collection) * width, np.float32)
+    collection.foreach_get(name, values)
+    return values.reshape(-1, width)
+
+
+def _read_indices(collection, name: str, width: int) -> IntArray:
+    values = np.empty(len(collection) * width, np.int32)
+    collection.foreach_get(name, values)
+    return values.reshape(-1, width)

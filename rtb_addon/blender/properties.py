@@ -1,0 +1,206 @@
+"""What RenderToolbox keeps in a .blend file: real properties of scenes, materials, lamps, worlds, objects."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Sequence
+
+import bpy
+from bpy.props import (
+    BoolProperty,
+    CollectionProperty,
+    EnumProperty,
+    FloatProperty,
+    IntProperty,
+    PointerProperty,
+    StringProperty,
+)
+
+from .conditions import set_conditions
+
+SCHEMA = 1
+RENDERERS = (
+    ("mitsuba", "Mitsuba", "Mitsuba 3, all bands along each path", 1),
+    ("tracer", "Tracer", "The internal tracer, on numpy and Embree", 2),
+)
+INTEGRATORS = (
+    ("path", "Path", "Light that is reflected many times", 1),
+    ("direct", "Direct", "Light that comes straight from a lamp", 2),
+)
+FILLS = (
+    ("columns", "Down the Columns", "Conditions go down the columns, as in RenderToolbox3", 1),
+    ("rows", "Along the Rows", "Conditions go along the rows, as the patches of a chart", 2),
+)
+MODELS = (("matte", "Matte", "Reflects evenly to all sides", 1),)
+EMISSIONS = (
+    ("radiance", "Radiance", "The amount is a factor of a spectrum of radiance, in W / (sr m² nm)", 1),
+    ("watts", "Watts", "The amount is the power in watts that the surface sends out", 2),
+)
+_SPOKEN = (
+    "a name of the library (D65), daylight 5000, blackbody 3000, pairs like 400:0.2 700:0.8, a number, "
+    "a .spd file, or (variable) to take it from the conditions"
+)
+
+
+class RTB_PG_cell(bpy.types.PropertyGroup):
+    """What one condition says for one variable."""
+
+    value: StringProperty(name="Value", description="Text of this cell")
+
+
+class RTB_PG_variable(bpy.types.PropertyGroup):
+    """A column of the conditions; its name is what (name) stands for."""
+
+
+class RTB_PG_condition(bpy.types.PropertyGroup):
+    """A row of the conditions; its name names its files. Cells are in the order of the variables."""
+
+    cells: CollectionProperty(type=RTB_PG_cell)
+
+
+def rendered_size(scene) -> tuple[int, int]:
+    """Return the width and height that Blender renders a scene with [pixels]."""
+    render = scene.render
+    part = render.resolution_percentage
+    return max(render.resolution_x * part // 100, 1), max(render.resolution_y * part // 100, 1)
+
+
+def _resize(render, width: int, height: int) -> None:
+    render.resolution_percentage = 100
+    render.resolution_x, render.resolution_y = width, height
+
+
+class RTB_PG_scene(bpy.types.PropertyGroup):
+    """The recipe of a scene; its width and height are those that Blender renders with."""
+
+    schema: IntProperty(name="Schema", default=SCHEMA, options={"HIDDEN"})
+    name: StringProperty(name="Name", description="Name of the recipe; empty: that of the .blend file")
+    folder: StringProperty(
+        name="Folder",
+        description="Where the recipe is written; NAME stands for its name, // for the folder of the .blend",
+        default="//rtb/NAME/",
+        subtype="DIR_PATH",
+        options={"PATH_SUPPORTS_BLEND_RELATIVE"},
+    )
+    renderer: EnumProperty(name="Renderer", items=RENDERERS, default="mitsuba")
+    samples: IntProperty(name="Samples", description="Light paths per pixel", default=64, min=1)
+    seed: IntProperty(name="Seed", description="Of the random numbers, for all conditions", min=0)
+    integrator: EnumProperty(name="Light Paths", items=INTEGRATORS, default="path")
+    depth: IntProperty(
+        name="Depth", description="Longest light path; 2 is direct light", default=6, min=1, soft_max=64
+    )
+    bands_start: FloatProperty(name="First Band (nm)", default=400.0, min=1.0, precision=1)
+    bands_step: FloatProperty(name="Band Width (nm)", default=10.0, min=0.01, precision=1)
+    bands_count: IntProperty(name="Bands", default=31, min=1, soft_max=100)
+    montage_columns: IntProperty(
+        name="Montage Columns", description="0: as square as may be", default=0, min=0
+    )
+    montage_fill: EnumProperty(name="Montage Order", items=FILLS, default="columns")
+    variables: CollectionProperty(type=RTB_PG_variable)
+    conditions: CollectionProperty(type=RTB_PG_condition)
+    active_variable: IntProperty(options={"HIDDEN", "SKIP_SAVE"}, min=0)
+    active_condition: IntProperty(options={"HIDDEN", "SKIP_SAVE"}, min=0)
+
+    # Plain Python: a property of Blender's with functions of ours lets its Python module hang as it exits.
+    @property
+    def width(self) -> int:
+        """Width of the pictures [pixels]."""
+        return rendered_size(self.id_data)[0]
+
+    @width.setter
+    def width(self, value: int) -> None:
+        _resize(self.id_data.render, value, self.height)
+
+    @property
+    def height(self) -> int:
+        """Height of the pictures [pixels]."""
+        return rendered_size(self.id_data)[1]
+
+    @height.setter
+    def height(self, value: int) -> None:
+        _resize(self.id_data.render, self.width, value)
+
+    def set_conditions(self, variables: Sequence[str], rows: Iterable[Sequence[object]]) -> None:
+        """Replace the table of conditions by rows of cells, one cell for each variable."""
+        set_conditions(self.id_data, variables, rows)
+
+
+class RTB_PG_material(bpy.types.PropertyGroup):
+    """What a surface does with light of each wavelength."""
+
+    use_spectra: BoolProperty(
+        name="Use Spectra", description="Reflect as said here instead of by the colour", default=False
+    )
+    model: EnumProperty(name="Model", items=MODELS, default="matte")
+    reflectance: StringProperty(
+        name="Reflectance", description=f"Reflectance, 0 to 1: {_SPOKEN}", default="0.5"
+    )
+
+
+class RTB_PG_light(bpy.types.PropertyGroup):
+    """What light a lamp sends out; how much stays Blender's power."""
+
+    use_spectra: BoolProperty(
+        name="Use Spectra", description="Shine as said here instead of in the colour", default=False
+    )
+    spectrum: StringProperty(
+        name="Spectrum", description=f"Shape of the spectrum, scaled to the power: {_SPOKEN}", default="D65"
+    )
+
+
+class RTB_PG_world(bpy.types.PropertyGroup):
+    """What light comes from all around."""
+
+    use_spectra: BoolProperty(name="Use Spectra", description="Let the world shine", default=False)
+    spectrum: StringProperty(
+        name="Spectrum", description=f"Radiance, in W / (sr m² nm): {_SPOKEN}", default="1"
+    )
+    amount: FloatProperty(name="Amount", description="Factor of the spectrum", default=1.0, min=0.0)
+
+
+class RTB_PG_object(bpy.types.PropertyGroup):
+    """What light a mesh sends out, from the side of its normals."""
+
+    emits: BoolProperty(name="Emits", description="Let this surface shine", default=False)
+    spectrum: StringProperty(name="Spectrum", description=f"What it sends out: {_SPOKEN}", default="D65")
+    emission: EnumProperty(name="Measured As", items=EMISSIONS, default="radiance")
+    amount: FloatProperty(name="Amount", default=1.0, min=0.0)
+
+
+_CLASSES = (
+    RTB_PG_cell,
+    RTB_PG_variable,
+    RTB_PG_condition,
+    RTB_PG_scene,
+    RTB_PG_material,
+    RTB_PG_light,
+    RTB_PG_world,
+    RTB_PG_object,
+)
+_POINTERS = (
+    ("Scene", RTB_PG_scene),
+    ("Material", RTB_PG_material),
+    ("Light", RTB_PG_light),
+    ("World", RTB_PG_world),
+    ("Object", RTB_PG_object),
+)
+
+
+def register() -> None:
+    """Make the properties known to Blender; again, where they are known already, does nothing."""
+    if hasattr(bpy.types.Scene, "rtb") and all(cls.is_registered for cls in _CLASSES):
+        return
+    unregister()
+    for cls in _CLASSES:
+        bpy.utils.register_class(cls)
+    for name, cls in _POINTERS:
+        getattr(bpy.types, name).rtb = PointerProperty(type=cls)
+
+
+def unregister() -> None:
+    """Take the properties back, those that are there; what a file holds stays in it."""
+    for name, _ in reversed(_POINTERS):
+        if hasattr(owner := getattr(bpy.types, name), "rtb"):
+            del owner.rtb
+    for cls in reversed(_CLASSES):
+        if cls.is_registered:
+            bpy.utils.unregister_class(cls)

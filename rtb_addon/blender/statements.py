@@ -1,0 +1,61 @@
+"""What the mappings will say about the parent scene: materials and lights with their spectra."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass
+
+from ..spectra import Spectrum, Unit
+
+
+@dataclass(frozen=True)
+class Spoken:
+    """
+    A spectrum as somebody typed it, and what becomes of its numbers.
+
+    Parameters
+    ----------
+    text : as spectra/spoken.py understands it, ``(variable)`` standing for a cell of the conditions
+    owner : what it belongs to, for messages: the material Paint
+    unit : of what comes out
+    factor : of what comes out
+    watts : power [W] that the spectrum is the shape of; None where its numbers count as they are
+    """
+
+    text: str
+    owner: str
+    unit: Unit = Unit.RATIO
+    factor: float = 1.0
+    watts: float | None = None
+
+    def meant(self, spectrum: Spectrum) -> Spectrum:
+        """Return what a spectrum that was typed becomes [unit]."""
+        carrying = spectrum if self.watts is None else spectrum.with_watts(self.watts)
+        return carrying.scaled(self.factor, self.unit)
+
+    @property
+    def treatment(self) -> tuple:
+        """What is done to the numbers: two that do the same can share their files."""
+        return self.text, self.unit, self.factor, self.watts
+
+
+@dataclass(frozen=True)
+class Statement:
+    """
+    A material or light in the vocabulary.
+
+    Parameters
+    ----------
+    id : in the parent scene
+    name : its name in Blender, which its files get
+    category, model : words of the vocabulary
+    spectra : parameter -> its spectrum
+    numbers : parameter -> its number
+    """
+
+    id: str
+    name: str
+    category: str
+    model: str
+    spectra: Mapping[str, Spoken | Spectrum]
+    numbers: Mapping[str, float]

@@ -1,0 +1,186 @@
+"""The conditions of a scene with its spectra as files: what was typed becomes what mappings can name."""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Callable, Iterable, Mapping, Sequence
+from pathlib import Path
+
+from ..conditions import Condition, Conditions
+from ..errors import RecipeError
+from ..scene.write_ids import clean
+from ..scene.write_numbers import shortest
+from ..spectra import Spectrum, Unit
+from ..spectra.files import spd_text
+from ..spectra.spoken import spectrum_from
+from .conditions import IMAGE_NAME
+from .statements import Spoken, Statement
+
+_VARIABLE = re.compile(r"\(([^()]+)\)")
+_FOLDER = "resources"
+
+
+class SpectrumFiles:
+    """The spectra of a recipe as files below resources/, each content once under each name."""
+
+    def __init__(self) -> None:
+        self.contents: dict[str, bytes] = {}
+
+    def add(self, name: str, spectrum: Spectrum) -> str:
+        """Return the path, in the recipe's folder, of a spectrum's file."""
+        content, number = spd_text(spectrum).encode(), 1
+        while True:
+            file = f"{_stem(name)}{f'-{number}' if number > 1 else ''}.spd"
+            twins = [each for each in self.contents if each.casefold() == file.casefold()]
+            if not twins or (twins == [file] and self.contents[file] == content):
+                self.contents[file] = content
+                return f"{_FOLDER}/{file}"
+            number += 1
+
+
+class Table:
+    """
+    A scene's conditions, growing columns of spectra.
+
+    Parameters
+    ----------
+    variables : as the scene has them
+    names : of the conditions
+    rows : cells of each condition, by variable
+    """
+
+    def __init__(
+        self, variables: Sequence[str], names: Sequence[str], rows: Sequence[Mapping[str, str]]
+    ) -> None:
+        self.variables, self.names = list(variables), list(names)
+        self.typed = [dict(row) for row in rows]
+        self.cells = [dict(row) for row in rows]
+        self._columns: dict[tuple, str] = {}
+
+    def conditions(self, base: str) -> Conditions:
+        """Return the finished table."""
+        if not self.names:
+            return Conditions.single(base)
+        rows = [
+            Condition(name, {IMAGE_NAME: name, **cells})
+            for name, cells in zip(self.names, self.cells, strict=True)
+        ]
+        return Conditions((IMAGE_NAME, *self.variables), tuple(rows))
+
+    def column(self, spoken: Spoken, name: str, only_user: bool, fill: Callable[[str, str], str]) -> str:
+        """
+        Return the variable that holds the files of a spectrum that conditions vary.
+
+        Parameters
+        ----------
+        name : of what the spectrum belongs to
+        only_user : whether nothing else uses its variables
+        fill : returns the file for a text, given what was typed into the cells
+        """
+        if (known := self._columns.get(spoken.treatment)) is not None:
+            return known
+        used = _VARIABLE.findall(spoken.text)
+        alone = only_user and len(used) == 1 and spoken.text == f"({used[0]})"
+        variable = used[0] if alone else self._free(f"{clean(name)}Spectrum")
+        if not alone:
+            self.variables.append(variable)
+        for row, cells in enumerate(self.typed):
+            said = [self._cell(row, each, spoken.owner) for each in used]
+            text = _VARIABLE.sub(lambda found, cells=cells: cells[found[1]], spoken.text)
+            self.cells[row][variable] = fill(text, "-".join(said))
+        self._columns[spoken.treatment] = variable
+        return variable
+
+    def _cell(self, row: int, variable: str, owner: str) -> str:
+        if variable not in self.typed[row]:
+            known = ", ".join(self.variables) or "none"
+            raise RecipeError(f"{owner} uses ({variable}), the variables of the conditions are {known}")
+        if not self.typed[row][variable].strip():
+            raise RecipeError(
+                f"the condition {self.names[row]} says nothing for {variable}, {owner} needs it"
+            )
+        return self.typed[row][variable]
+
+    def _free(self, name: str) -> str:
+        number, found = 1, name
+        while found in self.variables or found == IMAGE_NAME:
+            number += 1
+            found = f"{name}{number}"
+        return found
+
+
+def mappings_text(
+    statements: Iterable[Statement], table: Table, files: SpectrumFiles, folder: Path | None
+) -> str:
+    """
+    Return the mappings that make some statements; their spectra become files, their variables columns.
+
+    Parameters
+    ----------
+    folder : where spectrum files are that were typed with a relative name
+    """
+    statements = list(statements)
+    users = _treatments_by_variable(statements)
+    lines = []
+    for each in statements:
+        lines.append(f"{each.id}:{each.category}:{each.model}")
+        for parameter, spectrum in each.spectra.items():
+            value = _value(spectrum, each.name, table, files, folder, users)
+            lines.append(f"{each.id}:{parameter}.spectrum = {value}")
+        lines += [f"{each.id}:{name}.float = {shortest(value):.9g}" for name, value in each.numbers.items()]
+    body = "".join(f"    {line}\n" for line in lines)
+    return f"Generic {{\n{body}}}\n" if body else ""
+
+
+def _value(
+    spectrum: Spoken | Spectrum,
+    name: str,
+    table: Table,
+    files: SpectrumFiles,
+    folder: Path | None,
+    users: Mapping[str, set[tuple]],
+) -> str:
+    if isinstance(spectrum, Spectrum):
+        return files.add(name, spectrum)
+
+    def file_of(text: str, file: str) -> str:
+        return files.add(file, _heard(spectrum, text, folder))
+
+    used = _VARIABLE.findall(spectrum.text)
+    if not used:
+        return file_of(spectrum.text, name)
+    if not table.names:
+        raise RecipeError(f"{spectrum.owner} uses ({used[0]}), but there are no conditions")
+    prefix = "" if spectrum.treatment[1:] == _REFLECTANCE else f"{name}-"
+    only = all(users[variable] == {spectrum.treatment} for variable in used)
+    return f"({table.column(spectrum, name, only, lambda text, said: file_of(text, prefix + _stem(said)))})"
+
+
+# What is done to the numbers of a reflectance: nothing.
+_REFLECTANCE = Spoken("", "").treatment[1:]
+
+
+def _heard(spoken: Spoken, text: str, folder: Path | None) -> Spectrum:
+    """Return a spectrum that was typed, in the unit that it is for."""
+    as_typed = Unit.SHAPE if spoken.watts is not None else spoken.unit
+    try:
+        return spoken.meant(spectrum_from(text, as_typed, folder))
+    except (RecipeError, ValueError) as error:
+        raise RecipeError(f"{spoken.owner}: {error}") from error
+
+
+def _treatments_by_variable(statements: Iterable[Statement]) -> dict[str, set[tuple]]:
+    found: dict[str, set[tuple]] = {}
+    for spectrum in (spectrum for each in statements for spectrum in each.spectra.values()):
+        if isinstance(spectrum, Spoken):
+            for variable in _VARIABLE.findall(spectrum.text):
+                found.setdefault(variable, set()).add(spectrum.treatment)
+    return found
+
+
+def _stem(said: str) -> str:
+    """Return what was typed as the name of a file: that of a file without its folder and ending."""
+    name = said.strip()
+    if name.lower().endswith(".spd"):
+        name = re.split(r"[/\\]", name)[-1][:-4]
+    return re.sub(r"[^\w.-]+", "-", name).strip("-.") or "spectrum"
