@@ -7,6 +7,7 @@ from .cancel_rendering import RTB_OT_cancel_rendering
 from .export_recipe import RTB_OT_export_recipe
 from .render_recipe import RTB_OT_render_recipe
 from .show_montage import RTB_OT_show_montage
+from .tell import RTB_OT_tell
 from .use_spectra import RTB_OT_use_spectra
 
 _register, _unregister = register_classes_factory(
@@ -16,6 +17,7 @@ _register, _unregister = register_classes_factory(
         RTB_OT_cancel_rendering,
         RTB_OT_show_montage,
         RTB_OT_use_spectra,
+        RTB_OT_tell,
     )
 )
 

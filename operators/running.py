@@ -12,6 +12,7 @@ import bpy
 
 from . import findings, montages
 from .child_batch import ChildBatch
+from .tell import tell
 
 INTERVAL = 0.1  # [s] between two looks at what the child has said
 
@@ -67,7 +68,18 @@ def _conclude(ended: ChildBatch) -> None:
         image = montages.load(ended.montage)
         if not bpy.app.background and (area := montages.editor(bpy.context)):
             montages.show(image, area)
+    tell(*_outcome(ended))
     _redraw()
+
+
+def _outcome(ended: ChildBatch) -> tuple[str, str]:
+    """Return in one sentence how a batch ended, and how grave that is."""
+    done = f"{ended.finished - len(ended.failures)} of {ended.total} conditions are done"
+    if ended.failures and ended.finished > len(ended.failures):
+        return "WARNING", f"{done}, {ended.failures[0]}"
+    if ended.failures:
+        return "ERROR", ended.failures[0]
+    return "INFO", f"Rendering stopped, {done}" if ended.cancelled else f"Recipe rendered, {done}"
 
 
 def _redraw() -> None:

@@ -47,7 +47,11 @@ def batch(**said):
 def test_the_recipes_panel_offers_what_can_be_done(panel, running):
     layout = panel("recipe", "RTB_PT_recipe")
     assert layout.names("operator") == ["rtb.render_recipe", "rtb.show_montage", "rtb.export_recipe"]
-    assert layout.names("prop") == ["name", "folder", "renderer", "width", "height", "samples"]
+    assert layout.names("prop") == [
+        *("name", "folder", "renderer"),
+        *("resolution_x", "resolution_y", "resolution_percentage"),
+        "samples",
+    ]
 
 
 @pytest.mark.parametrize(

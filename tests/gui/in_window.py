@@ -113,28 +113,35 @@ def measured(owner, name: str) -> list[float]:
 
 
 def stop_by_key_and_button(driver: Driver):
-    """Start two endless batches; stop one with Esc over each editor and one with the button in the panel."""
+    """Stop batches with Esc over each editor and with the button in the panel."""
+    bpy.context.scene.rtb.samples = 400
+    yield from start(driver)
+    while extension("operators.running").batch.finished < 2:
+        yield 0.05
+    yield 0.3
+    driver.photograph("rendering")
+    yield from driver.press("ESC", "VIEW_3D")
+    yield from until_stopped(driver, "Esc over VIEW_3D")
     bpy.context.scene.rtb.samples = LONG
-    for editor in ("VIEW_3D", "IMAGE_EDITOR"):
-        yield from start_long(driver)
-        if editor == "VIEW_3D":
-            driver.photograph("rendering")
-        yield from driver.press("ESC", editor)
-        yield from until_stopped(driver, f"Esc over {editor}")
-    yield from start_long(driver)
+    yield from start(driver)
+    yield from driver.press("ESC", "IMAGE_EDITOR")
+    yield from until_stopped(driver, "Esc over IMAGE_EDITOR")
+    yield from start(driver)
     region = driver.region("VIEW_3D", "UI")
     rows = driver.button_rows(driver.photograph("before-cancel"), region, from_left=0.8)
     yield from driver.click(region.x + 0.83 * region.width, sum(rows[-3]) / 2)  # Cancel, Show, Export
     yield from until_stopped(driver, "Cancel button")
 
 
-def start_long(driver: Driver):
-    """Start a batch that takes for ever and wait until it is at work."""
+def start(driver: Driver):
+    """Start a batch and wait until it is at work."""
+    begin = time.perf_counter()
     bpy.ops.rtb.render_recipe()
+    driver.report["export and start"] = time.perf_counter() - begin
     batch = extension("operators.running").batch
     while not batch.total and not batch.ended:
         yield 0.05
-    yield 1.5
+    yield 1.0
 
 
 def until_stopped(driver: Driver, how: str):
@@ -168,7 +175,7 @@ def disturb_batches(driver: Driver, folder: Path):
 
     cubes = {file: file.stat().st_mtime_ns for file in folder.rglob("*.exr")}
     bpy.ops.ed.undo_push(message="Something")
-    yield from start_long(driver)
+    yield from start(driver)
     with bpy.context.temp_override(window=driver.window):
         bpy.ops.ed.undo()
     yield 0.5
@@ -178,7 +185,7 @@ def disturb_batches(driver: Driver, folder: Path):
     driver.report.setdefault("left", {})["opening a file"] = children()
     bpy.context.scene.rtb.samples = LONG
     yield 0.5
-    yield from start_long(driver)
+    yield from start(driver)
     addon_utils.disable(EXTENSION)
     driver.report["left"]["disabling"] = children()
     addon_utils.enable(EXTENSION)
@@ -188,7 +195,7 @@ def disturb_batches(driver: Driver, folder: Path):
 
 def quit_while_rendering(driver: Driver):
     """Leave Blender while a batch is at work."""
-    yield from start_long(driver)
+    yield from start(driver)
     driver.report["when quitting"] = children()
     driver.write()
     with bpy.context.temp_override(window=driver.window):
