@@ -13,6 +13,7 @@ from pathlib import Path
 from typing import NamedTuple
 
 from .errors import RecipeError
+from .files import temporary_prefix
 from .processes import born, runs
 
 NAME = "batch.lock"
@@ -80,7 +81,7 @@ def locked(folder: Path) -> Iterator[None]:
 def _create(path: Path, content: bytes) -> bool:
     """Create a lock that holds all its content from its first moment; return whether nobody was quicker."""
     try:
-        handle, name = tempfile.mkstemp(prefix=".lock-", dir=path.parent)
+        handle, name = tempfile.mkstemp(prefix=temporary_prefix(os.getpid()), dir=path.parent)
     except OSError as error:
         raise RecipeError(
             f"cannot write into {path.parent} ({error.strerror}); make it writable, or render a copy of it"
@@ -114,7 +115,7 @@ def _write_anew(path: Path, content: bytes) -> bool:
 
 def _clear_away(path: Path) -> None:
     """Remove a dead process's lock, unless somebody took it over in this very moment."""
-    aside = path.with_name(f".lock-dead-{os.getpid()}-{time.monotonic_ns()}")
+    aside = path.with_name(f"{temporary_prefix(os.getpid())}{time.monotonic_ns()}-{NAME}")
     try:
         path.rename(aside)
     except FileNotFoundError:

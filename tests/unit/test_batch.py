@@ -37,7 +37,7 @@ def cube(recipe, name):
 
 
 def temporaries(folder):
-    return [file for file in folder.rglob("*") if ".writing" in file.name or ".lock-" in file.name]
+    return [file for file in folder.rglob("*") if ".writing" in file.name]
 
 
 def workers_of(pid):
