@@ -29,7 +29,7 @@ FLOORS = {
     "rtb_addon/resources.py": 4,
     "rtb_addon/colorimetry.py": 3,
     "rtb_addon/spectral_image.py": 3,
-    "rtb_addon/mappings.py": 3,
+    "rtb_addon/mappings": 3,
     "rtb_addon/spectra": 2,
     "rtb_addon/scene": 2,
     "rtb_addon/conditions.py": 2,

@@ -1,6 +1,7 @@
 """Mappings files: blocks, lines, and what they say for one condition."""
 
 import os
+import re
 from pathlib import Path
 
 import pytest
@@ -9,9 +10,9 @@ from hypothesis import strategies as st
 
 from rtb_addon.conditions import Condition
 from rtb_addon.errors import RecipeError
-from rtb_addon.mappings import format_mappings, parse_mappings, read_mappings
+from rtb_addon.mappings import format_blocks, format_mappings, parse_mappings, read_mappings
+from rtb_addon.mappings.lines import parse_statement, parse_target
 from rtb_addon.scene.document import Scene
-from rtb_addon.scene.lines import parse_statement, parse_target
 
 RTB3 = Path(os.environ.get("RTB3_FOLDER", Path(__file__).resolve().parents[3] / "shared" / "rtb3"))
 
@@ -180,7 +181,16 @@ def test_a_brace_alone_begins_no_block():
         ("}\n", 1, "a } without a block"),
         ("Genric {\nX:light:point\n}", 1, "nobody reads a block of type Genric"),
         ("Generic {\nX:light:point\nX:radius += 1\n}", 3, "+= acts like ="),
-        ("Generic {\nX:light:point\nX:radius = <Y:c>\n}", 3, "<Y:c> is not looked up"),
+        ("Generic {\nX:light:point\nX:radius = <Y:c>\n}", 3, "Mitsuba's adjustments have nothing at <Y:c>"),
+        (generic("X:intensity.spectrum= 300:1"), 2, "holds no operator and is lost, write it with spaces"),
+        (generic("X:intensity.spectrum\t=\tD65"), 2, "holds no operator and is lost"),
+        ("Collada {\nLamp:scale|sid=scale=1\n}", 2, "holds no operator and is lost"),
+        ("Collada {\nLamp:translate|sid=location\n}", 2, "holds no operator and is lost"),
+        (generic("X:a:b:c:d = 1"), 2, "is lost; want id:category:type or id:property.type = value"),
+        (generic("X:light"), 2, "is lost; want id:category:type"),
+        (generic("X:a.float = [Nobody:there]"), 2, "has nothing at [Nobody:there], the value is empty"),
+        (generic("X:a.string = (b)"), 2, "no variable is called b, the conditions have"),
+        ("Collada {\n(who):scale = 1\n}", 2, "no variable is called who"),
     ],
 )
 def test_odd_lines_are_remarked_upon_with_their_place(text, line, words):
@@ -193,21 +203,130 @@ def test_odd_lines_are_remarked_upon_with_their_place(text, line, words):
 @pytest.mark.parametrize(
     ("text", "words"),
     [
-        (generic("X:intensity.spectrum= 300:1"), "holds no operator, write spaces around its ="),
-        (generic("X:intensity.spectrum\t=\tD65"), "holds no operator"),
-        (generic("X:a:b:c:d = 1"), "want id:category:type or id:property.type = value"),
-        (generic("X:light"), "want id:category:type"),
         (generic("X:intensity.spectrum = [Lamp"), r"'\[' without its '\]'"),
-        ("Collada {\nLamp:translate|sid=location\n}", "changes nothing"),
         ("Collada {\nLamp:translate|a=b=c=d = 1\n}", "want :child or :child|name=value"),
         (generic("X:intensity.spectrum = (colour)"), "no variable is called colour, the conditions have"),
-        (generic("X:a.float = [Nobody:there]"), r"has no value at \[Nobody:there\]"),
-        (generic("X:a.float = [Lamp]"), r"has no value at \[Lamp\]"),
+        (generic("X:a.float = [Lamp]"), r"at \[Lamp\] is no text but other elements"),
     ],
 )
 def test_wrong_lines_are_refused_with_their_place(text, words):
     with pytest.raises(RecipeError, match=rf"^mappings.txt:2: .*{words}"):
         filled(text)
+
+
+def test_a_property_that_a_generic_block_sets_twice_is_refused():
+    text = generic("X:light:point", "X:radius.float = 1", "X:radius.float = 2")
+    with pytest.raises(RecipeError, match=r"^mappings.txt:4: radius of X is set in line 3 already"):
+        filled(text)
+
+
+def adjusted(*lines, renderer="mitsuba", block="Mitsuba-path"):
+    return filled(f"{block} {{\n" + "\n".join(lines) + "\n}\n", renderer)
+
+
+@pytest.mark.parametrize(
+    ("lines", "expected"),
+    [
+        (["Eye_sampler:integer|name=sampleCount.value = 64"], ["Eye_sampler:sampleCount.integer = 64"]),
+        (
+            ["Camera-camera_sampler:integer|name=sampleCount.value *= 4"],
+            ["Camera-camera_sampler:sampleCount.integer = 32"],
+        ),
+        (["Camera-camera_sampler.type = halton"], ["Camera-camera_sampler:sampler:halton"]),
+        (["Camera-camera.type = thinlens"], ["Camera-camera:sensor:thinlens"]),
+        (["integrator:ref|name=map.id = checks"], ["integrator:map.texture = checks"]),
+        (["Camera-camera$ = merge", "Camera-camera_film$ = merge"], []),
+        (
+            ["Camera-camera_film:rfilter|type=box:float|name=radius.value = 0.25"],
+            ["filter:rfilter:box", "filter:radius.float = 0.25"],
+        ),
+        (["Paint-material:rgb|name=reflectance.intent = reflectance"], []),
+        (["Lamp:transform|name=toWorld:scale.x = 2"], ["Lamp:transform|name=toWorld:scale.x = 2"]),
+        (["integrator$ = emitter"], ["integrator$ = emitter"]),
+    ],
+)
+def test_paths_into_mitsubas_adjustments_become_lines_of_its_own_block(lines, expected):
+    assert [line.text for line in adjusted(*lines).native] == expected
+
+
+def test_paths_into_pbrts_adjustments_become_lines_of_its_own_block():
+    lines = (
+        "filter:parameter|name=alpha = 4",
+        "sampler:parameter|name=pixelsamples.type = integer",
+        "sampler:parameter|name=pixelsamples *= 2",
+        "Eye-camera.type = perspective",
+        "Eye-camera:parameter|name=lensradius = 0.2",
+        "Eye-camera:parameter|name=lensradius.type = float",
+    )
+    assert [line.text for line in adjusted(*lines, renderer="PBRT", block="PBRT-path").native] == [
+        "filter:alpha.float = 4",
+        "sampler:pixelsamples.integer = 8",
+        "sampler:pixelsamples.integer = 16",
+        "Eye-camera:Camera:perspective",
+        "Eye-camera:lensradius = 0.2",
+        "Eye-camera:lensradius.float = 0.2",
+    ]
+
+
+def test_a_path_in_angle_brackets_is_read_from_the_adjustments_as_they_stand():
+    text = """Mitsuba {
+integrator:integrator:path
+integrator:maxDepth.integer = 7
+integrator:rrDepth.integer = <integrator:integer|name=maxDepth.value>
+integrator:kind.string = <integrator.type>
+}
+Mitsuba-path {
+integrator:integer|name=maxDepth.value += 2
+integrator:integer|name=rrDepth.value = <integrator:integer|name=maxDepth.value>
+}
+"""
+    assert [line.text for line in filled(text).native] == [
+        "integrator:integrator:path",
+        "integrator:maxDepth.integer = 7",
+        "integrator:rrDepth.integer = 7",
+        "integrator:kind.string = path",
+        "integrator:maxDepth.integer = 9",
+        "integrator:rrDepth.integer = 9",
+    ]
+
+
+def test_the_width_of_a_parallel_view_needs_no_scaling_of_its_camera():
+    scene = Scene.parse(
+        SCENE.tobytes().replace(b"perspective", b"orthographic").replace(b"xfov", b"xmag"), "p"
+    )
+    text = """Mitsuba-path {
+Camera-camera:transform|name=toWorld:scale.x = [Camera-camera:optics:technique_common:orthographic:xmag]
+Camera-camera:transform|name=toWorld:scale.y = 41
+}
+"""
+    found = parse_mappings(text, "mappings.txt").fill_in(ROW, "mitsuba", scene, nothing)
+    assert [line.line for line in found.native] == [3]
+    assert "a parallel view has its width from the parent scene" in found.remarks[0].message
+
+
+def test_a_material_of_mitsubas_in_a_generic_block_goes_to_mitsuba():
+    text = generic("Cup-material:material:ward", "Cup-material:alphaU.float = 0.1")
+    assert [line.text for line in filled(text).native] == [
+        "Cup-material:bsdf:ward",
+        "Cup-material:alphaU.float = 0.1",
+    ]
+    assert filled(generic("Cup-material:material:plastic")).native == ()
+
+
+@pytest.mark.parametrize("renderer", ["mitsuba", "tracer", "pbrt"])
+def test_every_file_that_rendertoolbox3_shipped_can_be_filled_in(renderer):
+    if not RTB3.is_dir():
+        pytest.skip(f"RENDERTOOLBOX3'S FILES ARE NOT HERE: no {RTB3}, set RTB3_FOLDER")
+    for path in RTB3.rglob("*Mappings.txt"):
+        mappings = read_mappings(path)
+        words = set(re.findall(r"\((\w+)\)", mappings.text))
+        row = Condition("first", dict.fromkeys(words, "1"))
+        strange = [
+            remark
+            for remark in mappings.fill_in(row, renderer, SCENE, nothing).remarks
+            if not re.search("has nothing at|parallel view|intent", remark.message)
+        ]
+        assert not strange
 
 
 def test_lines_of_a_block_that_nobody_reads_are_not_looked_into():
@@ -247,17 +366,16 @@ def test_mitsubas_blocks_are_read_by_its_relatives_too(renderer):
     assert [line.text for line in native] == [
         "integrator:integrator:path",
         "integrator:maxDepth.integer = 7",
-        "Camera-camera_film$ = merge",
         "Camera-camera:transform|name=toWorld:scale.x = 40",
     ]
-    assert [line.block for line in native] == ["mitsuba", "mitsuba", "Mitsuba-path", "Mitsuba-path"]
+    assert [line.block for line in native] == ["mitsuba", "mitsuba", "Mitsuba-path"]
     assert native[1][1:3] == ("mappings.txt", 22)
 
 
 def test_a_block_of_the_tracers_own_keeps_mitsubas_from_it():
     text = OWN_FILE + "Tracer {\nintegrator:integrator:direct\n}\n"
     assert [line.text for line in filled(text, "tracer").native] == ["integrator:integrator:direct"]
-    assert len(filled(text, "mitsuba").native) == 4
+    assert len(filled(text, "mitsuba").native) == 3
 
 
 def test_a_renderer_reads_no_other_ones_blocks():
@@ -334,5 +452,6 @@ def test_blocks_survive_writing_and_reading(blocks):
         for kind, group, lines in blocks
     )
     mappings = parse_mappings(format_mappings(parse_mappings(text, "m")), "m")
-    read = [(each.kind, each.group, [line.text for line in each.mappings]) for each in mappings.blocks]
-    assert read == blocks
+    for version in (mappings, parse_mappings(format_blocks(mappings.blocks), "m")):
+        read = [(each.kind, each.group, [line.text for line in each.mappings]) for each in version.blocks]
+        assert read == blocks

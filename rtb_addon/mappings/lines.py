@@ -61,6 +61,12 @@ def parse_target(text: str) -> Target:
     return Target(parts[0], parts[1], parts[2] if len(parts) == 3 else "")
 
 
+def count_parts(text: str) -> int:
+    """Return how many parts a scene target has; 0 where one is empty."""
+    parts = [part.strip() for part in re.split(r"[.:$]", text)]
+    return len(parts) if all(parts) else 0
+
+
 def _side(text: str) -> Side:
     for enclosing, pattern in _BRACKETS:
         if found := pattern.search(text):

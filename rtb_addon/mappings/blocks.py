@@ -7,14 +7,15 @@ What it read without a word though it looks like an accident comes with a remark
 from __future__ import annotations
 
 import re
+from collections.abc import Iterable
 from dataclasses import dataclass, field
 from pathlib import Path
 from typing import NamedTuple
 
 from ..errors import at
-from .adjustments import Remark
-from .lines import Statement, parse_statement, parse_target
-from .paths import parse_path
+from ..scene.adjustments import Remark
+from ..scene.paths import parse_path
+from .lines import Statement, count_parts, parse_statement
 
 # Renderers of old recipes, and ours; the lines of their blocks are checked when a file is read.
 RENDERERS = ("mitsuba", "pbrt", "tracer", "radiance", "cycles", "sphere")
@@ -73,24 +74,42 @@ def parse_blocks(text: str, file: str | Path) -> tuple[tuple[Block, ...], tuple[
         reader.remark("the block that begins here never ends, close it with }", reader.blocks[-1].line)
     for block in reader.blocks:
         for mapping in block.mappings if block.known else ():
-            statement_of(block, mapping, file)
+            statement = statement_of(block, mapping, file)
+            if why := lost(block, statement):
+                reader.remark(why, mapping.line)
     return tuple(reader.blocks), tuple(reader.remarks)
 
 
+def format_blocks(blocks: Iterable[Block]) -> str:
+    """Return the text that parse_blocks() reads back as the same blocks."""
+    return "\n".join(_formatted(block) for block in blocks)
+
+
 def statement_of(block: Block, mapping: Mapping, file: str | Path) -> Statement:
-    """Return a block's line taken apart; raise where it is not what such a block holds."""
+    """Return a line taken apart; raise for half a pair of brackets and for what should be a path."""
     with at(file, mapping.line):
         statement = parse_statement(mapping.text)
-        left = statement.left.value
-        if block.holds_paths and not statement.operator:
-            raise ValueError(f"'{left}' changes nothing, want a path, an operator and a value")
-        if not statement.operator and "=" in left:
-            raise ValueError(f"'{left}' holds no operator, write spaces around its =")
-        if block.holds_paths:
-            parse_path(left)
-        elif not parse_target(left).type and not statement.operator:
-            raise ValueError(f"cannot read '{left}', want id:category:type or id:property.type = value")
-    return statement
+        if block.holds_paths and statement.operator:
+            parse_path(statement.left.value)
+        return statement
+
+
+def lost(block: Block, statement: Statement) -> str:
+    """Return why RenderToolbox3 dropped a line, as we do, or nothing."""
+    left = statement.left.value
+    if not statement.operator and ("=" in left or block.holds_paths):
+        return f"'{left}' holds no operator and is lost, write it with spaces around an ="
+    if block.holds_paths:
+        return ""
+    parts = count_parts(left)
+    if parts == 3 or (parts == 2 and statement.operator):
+        return ""
+    return f"cannot read '{left}', which is lost; want id:category:type or id:property.type = value"
+
+
+def _formatted(block: Block) -> str:
+    head = f"{block.kind} {block.group} {{" if block.group else f"{block.kind} {{"
+    return "\n".join([head, *(f"    {each.text}" for each in block.mappings), "}", ""])
 
 
 @dataclass

@@ -1,0 +1,88 @@
+"""
+The mappings of a recipe: what each condition changes in the parent scene.
+
+Two syntaxes say the same: RenderToolbox3's blocks of lines, and RenderToolbox4's JSON. Reading finds
+blocks or changes; filling in, once for each condition, puts the row's values into those that apply and
+sorts them into edits of the document, neutral objects and native lines.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import dataclass
+from functools import cached_property
+from pathlib import Path
+from typing import TYPE_CHECKING
+
+from ..conditions import Condition, decoded
+from ..errors import RecipeError
+from ..scene.adjustments import Adjustments, Remark
+from .blocks import Block, format_blocks, parse_blocks
+from .fill_blocks import fill_blocks
+from .filling import Filling
+
+if TYPE_CHECKING:
+    from ..scene.document import Scene
+
+__all__ = ["Mappings", "format_blocks", "format_mappings", "parse_mappings", "read_mappings"]
+
+FindFile = Callable[[str], Path | None]
+
+
+@dataclass(frozen=True)
+class Mappings:
+    """
+    A mappings file, kept whole.
+
+    Parameters
+    ----------
+    text : of the file
+    file : its name, for messages
+    """
+
+    text: str = ""
+    file: str = "mappings.txt"
+
+    @cached_property
+    def blocks(self) -> tuple[Block, ...]:
+        """Its blocks, in the order of the file."""
+        return self._parsed[0]
+
+    @cached_property
+    def _parsed(self) -> tuple[tuple[Block, ...], tuple[Remark, ...]]:
+        return parse_blocks(self.text, self.file)
+
+    def fill_in(
+        self, condition: Condition, renderer: str, document: Scene, find_file: FindFile
+    ) -> Adjustments:
+        """
+        Return what the mappings say for one condition and one renderer.
+
+        Parameters
+        ----------
+        document : the parent scene as it is before any mapping, where ``[path]`` looks
+        find_file : returns the recipe's file of a name, or None
+        """
+        filling = Filling(self.file, condition, document, find_file, list(self._parsed[1]))
+        return fill_blocks(self.blocks, filling, renderer)
+
+
+def read_mappings(path: Path | str) -> Mappings:
+    """Read a mappings file."""
+    try:
+        content = Path(path).read_bytes()
+    except OSError as error:
+        raise RecipeError(f"cannot read the mappings {path}: {error.strerror}") from error
+    return parse_mappings(decoded(content), path)
+
+
+def parse_mappings(text: str, file: str | Path) -> Mappings:
+    """Return the mappings in a text; raise what is wrong with its lines."""
+    mappings = Mappings(text, str(file))
+    mappings.blocks  # noqa: B018  reading is what raises
+    return mappings
+
+
+def format_mappings(mappings: Mappings) -> str:
+    """Return the text of a mappings file, its comments and blanks as they were."""
+    return mappings.text
