@@ -4,7 +4,6 @@ import bpy
 
 from ..rtb_addon.blender.folders import recipe_folder, recipe_name
 from ..rtb_addon.errors import RecipeError
-from ..rtb_addon.recipe import Recipe
 from . import findings, montages
 
 
@@ -28,6 +27,8 @@ class RTB_OT_show_montage(bpy.types.Operator):
 
 def montage_file(scene):
     """Return the picture that the last batch of a scene's recipe left."""
+    from ..rtb_addon.recipe import Recipe  # brings much that enabling the extension need not wait for
+
     folder = recipe_folder(scene)
     file = Recipe(folder, recipe_name(scene)).montage_file(scene.rtb.renderer)
     if not file.is_file():

@@ -4,11 +4,8 @@ from __future__ import annotations
 
 import bpy
 
-from ..rtb_addon.blender.colours import linear_rec709
 from ..rtb_addon.blender.lights import colour_of
 from ..rtb_addon.blender.nodes import colour_of_material
-from ..rtb_addon.spectra.promotion import promoted
-from ..rtb_addon.spectra.text import format_number, format_spectrum
 
 THINGS = (
     ("MATERIAL", "Material", "The active material", 1),
@@ -33,13 +30,18 @@ class RTB_OT_use_spectra(bpy.types.Operator):
             return {"CANCELLED"}
         thing.rtb.use_spectra = True
         if self.thing == "MATERIAL":
-            thing.rtb.reflectance = in_words(linear_rec709(colour_of_material(thing).colour))
+            thing.rtb.reflectance = in_words(colour_of_material(thing).colour)
         elif self.thing == "LIGHT" and tuple(colour_of(thing)) != (1.0, 1.0, 1.0):
-            thing.rtb.spectrum = in_words(linear_rec709(colour_of(thing)))
+            thing.rtb.spectrum = in_words(colour_of(thing))
         return {"FINISHED"}
 
 
 def in_words(colour: tuple[float, float, float]) -> str:
-    """Return the spectrum of a colour (linear Rec.709) as somebody would type it, one number for a grey."""
-    rounded = [round(component, 3) for component in colour]
+    """Return the spectrum of a colour of Blender's as somebody would type it, one number for a grey."""
+    # numpy takes longer to come than all else that enabling the extension waits for.
+    from ..rtb_addon.blender.colours import linear_rec709
+    from ..rtb_addon.spectra.promotion import promoted
+    from ..rtb_addon.spectra.text import format_number, format_spectrum
+
+    rounded = [round(component, 3) for component in linear_rec709(colour)]
     return format_number(rounded[0]) if len(set(rounded)) == 1 else format_spectrum(promoted(rounded))

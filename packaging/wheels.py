@@ -12,7 +12,7 @@ from typing import NamedTuple
 from zipfile import ZipFile
 
 from packaging.requirements import Requirement
-from packaging.tags import Tag, compatible_tags, cpython_tags
+from packaging.tags import Tag, compatible_tags, cpython_tags, mac_platforms
 from packaging.utils import canonicalize_name, parse_wheel_filename
 
 ROOT = Path(__file__).resolve().parents[1]
@@ -61,8 +61,8 @@ WHEEL_PLATFORMS = {
     # Blender itself wants glibc 2.28.
     "linux-x64": [*(f"manylinux_2_{minor}_x86_64" for minor in range(28, 4, -1)), "manylinux2014_x86_64"],
     "windows-x64": ["win_amd64"],
-    "macos-arm64": [f"macosx_{major}_0_{kind}" for major in (12, 11) for kind in ("arm64", "universal2")],
-    "macos-x64": [f"macosx_{major}_0_{kind}" for major in (12, 11, 10) for kind in ("x86_64", "universal2")],
+    "macos-arm64": list(mac_platforms((14, 0), "arm64")),
+    "macos-x64": list(mac_platforms((14, 0), "x86_64")),
 }
 # Blender ships numpy, and a second one breaks it and other extensions.
 SHIPPED_BY_BLENDER = {"numpy"}

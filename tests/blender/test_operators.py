@@ -1,5 +1,7 @@
 """What the user can do: every operator from a script, as the panel's buttons call it."""
 
+import os
+import re
 import subprocess
 import sys
 from pathlib import Path
@@ -157,7 +159,7 @@ def test_a_folder_that_somebody_renders_in_is_left_alone(scene, module, tmp_path
     bpy.ops.rtb.export_recipe()
     before = {path: path.read_bytes() for path in (tmp_path / "rtb/cube").iterdir() if path.is_file()}
     scene.rtb.samples = 7
-    with module("rtb_addon.locks").locked(tmp_path / "rtb/cube"):
+    with module("rtb_addon.recipe.locks").locked(tmp_path / "rtb/cube"):
         sentence = sentence_of(bpy.ops.rtb.export_recipe)
     assert "has been rendering" in sentence
     assert all(path.read_bytes() == content for path, content in before.items())
@@ -196,10 +198,42 @@ def test_undo_brings_back_what_was_said_before(scene):
     assert bpy.data.materials["Material"].rtb.reflectance == "0.25"
 
 
-def test_blenders_own_process_imports_nothing_heavy(tmp_path):
+def test_blenders_own_process_stays_light(tmp_path):
+    said = [run_light_process(tmp_path, home) for home in ("first", "second")]
+    assert all("heavy modules: none" in each for each in said)
+    # The first one compiles the extension, once after each installation.
+    assert float(re.search(r"enabled in (\S+) ms", said[1])[1]) < 50
+
+
+def run_light_process(folder: Path, home: str) -> str:
+    """Return what a process of its own says that enables, exports and renders."""
+    (folder / home).mkdir()
+    usual = {name: value for name, value in os.environ.items() if name != "PYTHONDONTWRITEBYTECODE"}
     script = Path(__file__).with_name("light_process.py")
     finished = subprocess.run(
-        [sys.executable, str(script), str(tmp_path)], capture_output=True, text=True, check=False
+        [sys.executable, str(script), str(folder / home)],
+        env={**usual, "PYTHONPYCACHEPREFIX": str(folder / "compiled")},
+        capture_output=True,
+        text=True,
+        check=False,
     )
     assert finished.returncode == 0, finished.stderr
-    assert "heavy modules: none" in finished.stdout
+    return finished.stdout
+
+
+def test_a_process_that_dies_leaves_its_last_words(scene, module, tmp_path, monkeypatch):
+    child_batch = module("operators.child_batch")
+    start = module("rtb_addon.background").start_child
+    monkeypatch.setattr(child_batch, "start_child", lambda _: start([], module="rtb_addon.nowhere"))
+    batch = child_batch.ChildBatch(tmp_path)
+    batch.follow_to_the_end()
+    assert batch.failures == [f"{sys.executable}: No module named rtb_addon.nowhere"]
+
+
+def test_a_wrong_recipe_folder_is_one_sentence_from_the_child(scene, module, tmp_path):
+    bpy.ops.rtb.export_recipe()
+    (tmp_path / "rtb/cube/conditions.txt").write_text("imageName\tpaint\nblue\n")
+    batch = module("operators.child_batch").ChildBatch(tmp_path / "rtb/cube")
+    batch.follow_to_the_end()
+    assert len(batch.failures) == 1
+    assert batch.failures[0].startswith("conditions.txt:2: ")
