@@ -18,7 +18,7 @@ if TYPE_CHECKING:
     from .montage import make_montage
     from .old_recipes import import_recipe
     from .recipe import Recipe, write_recipe
-    from .recipe_options import Conventions, MontageOptions, RecipeOptions
+    from .recipe.options import Conventions, MontageOptions, RecipeOptions
     from .scene.build import SceneBuilder
     from .spectra import Bands, Spectrum
     from .spectral_image import SpectralImage
@@ -52,7 +52,7 @@ _ROOMS = {
     ".montage": ("make_montage",),
     ".old_recipes": ("import_recipe",),
     ".recipe": ("Recipe", "write_recipe"),
-    ".recipe_options": ("Conventions", "MontageOptions", "RecipeOptions"),
+    ".recipe.options": ("Conventions", "MontageOptions", "RecipeOptions"),
     ".scene.build": ("SceneBuilder",),
     ".spectra": ("Bands", "Spectrum"),
     ".spectral_image": ("SpectralImage",),

@@ -20,7 +20,7 @@ from .montage import make_montage, write_png
 from .old_recipes import import_recipe
 from .progress import ProgressBar
 from .recipe import Recipe
-from .recipe_problems import findings
+from .recipe.problems import findings
 
 FAILED, WRONG, CANCELLED = 1, 2, 130
 

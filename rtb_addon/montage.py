@@ -11,7 +11,7 @@ import numpy as np
 from .colorimetry import srgb8, tone_mapped, xyz
 from .errors import RecipeError
 from .files import replacing
-from .recipe_options import MontageOptions
+from .recipe.options import MontageOptions
 from .spectra import FloatArray
 from .spectral_image import SpectralImage
 

@@ -11,15 +11,16 @@ from pathlib import Path, PurePosixPath
 from typing import Literal
 from urllib.parse import unquote
 
-from . import records, renderers
+from . import renderers
+from .batch import records
+from .batch.keys import texture_names
 from .conditions import Condition, Conditions, decoded, parse_conditions
 from .errors import RecipeError
 from .files import write_text
-from .keys import texture_names
 from .mappings import Mappings, parse_mappings
 from .recipe import CONDITIONS, Recipe, write_recipe
-from .recipe_options import Conventions, MontageOptions, RecipeOptions
-from .resources import leads_outside, listed
+from .recipe.options import Conventions, MontageOptions, RecipeOptions
+from .recipe.resources import leads_outside, listed
 from .scene.document import Scene
 from .spectra.library import served
 

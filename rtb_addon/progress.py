@@ -8,7 +8,7 @@ from pathlib import Path
 from types import TracebackType
 
 from .background import Event
-from .resources import listed
+from .recipe.resources import listed
 
 
 class ProgressBar:

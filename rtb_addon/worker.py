@@ -99,7 +99,7 @@ def main() -> None:
 def _outcome(task: Task, recipes: dict[tuple[str, str], Recipe], desk: Desk) -> Event:
     """Return how a task ended; nothing that a rendering raises ends the worker."""
     # Only now: a worker listens to its parent before it imports what takes a second.
-    from .rendering import render_condition
+    from .batch.rendering import render_condition
 
     try:
         recipe = _recipe_of(task, recipes)

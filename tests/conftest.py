@@ -69,7 +69,7 @@ def write_family(tmp_path, plugin):
     """Return a function that writes a recipe with a row for each name and paint."""
     from rtb_addon.conditions import parse_conditions
     from rtb_addon.recipe import write_recipe
-    from rtb_addon.recipe_options import Conventions, MontageOptions, RecipeOptions
+    from rtb_addon.recipe.options import Conventions, MontageOptions, RecipeOptions
 
     def write(paints: dict[str, str], folder="family", conventions=None, resources=None, **options):
         rows = "".join(f"{name}\t{paint}\n" for name, paint in paints.items())

@@ -9,8 +9,8 @@ from pathlib import Path
 import numpy as np
 import pytest
 
+from rtb_addon.batch.rendering import render_condition
 from rtb_addon.recipe import Recipe
-from rtb_addon.rendering import render_condition
 from rtb_addon.spectra import DEFAULT_BANDS, library
 from tests.renderings.noise import CHANCE, error_of_mean, in_blocks, least_probability
 

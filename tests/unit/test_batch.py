@@ -10,12 +10,11 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from rtb_addon import locks
 from rtb_addon.batch import render_condition, render_recipe
 from rtb_addon.errors import RecipeError
 from rtb_addon.processes import runs
-from rtb_addon.recipe import Recipe
-from rtb_addon.recipe_options import Conventions
+from rtb_addon.recipe import Recipe, locks
+from rtb_addon.recipe.options import Conventions
 from rtb_addon.spectral_image import SpectralImage
 
 ROOT = Path(__file__).resolve().parents[2]

@@ -7,7 +7,7 @@ from PIL import Image
 from rtb_addon.colorimetry import linear_srgb, srgb8, tone_mapped, xyz
 from rtb_addon.errors import RecipeError
 from rtb_addon.montage import grid, make_montage, write_png
-from rtb_addon.recipe_options import MontageOptions
+from rtb_addon.recipe.options import MontageOptions
 from rtb_addon.spectra import DEFAULT_BANDS, library
 from rtb_addon.spectral_image import SpectralImage
 

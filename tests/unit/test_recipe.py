@@ -6,11 +6,10 @@ from pathlib import Path
 
 import pytest
 
-from rtb_addon import locks
 from rtb_addon.errors import RecipeError
-from rtb_addon.recipe import Recipe
-from rtb_addon.recipe_options import Conventions, MontageOptions, RecipeOptions
-from rtb_addon.recipe_scene import remaining_lines
+from rtb_addon.recipe import Recipe, locks
+from rtb_addon.recipe.condition_scene import remaining_lines
+from rtb_addon.recipe.options import Conventions, MontageOptions, RecipeOptions
 from rtb_addon.renderers.interface import NativeLine
 
 ROOT = Path(__file__).resolve().parents[2]
@@ -188,7 +187,7 @@ def test_a_locked_folder_is_refused_by_name_of_the_holder(write_family):
 def test_a_dead_process_s_lock_is_taken_over(write_family):
     folder = write_family({"a": "0.2"}).folder
     code = (
-        "import sys, os, pathlib; from rtb_addon.locks import locked;"
+        "import sys, os, pathlib; from rtb_addon.recipe.locks import locked;"
         "lock = locked(pathlib.Path(sys.argv[1])); lock.__enter__(); os._exit(9)"
     )
     subprocess.run([sys.executable, "-c", code, str(folder)], cwd=ROOT, check=False)

@@ -5,12 +5,12 @@ from __future__ import annotations
 from collections.abc import Iterator
 from typing import TYPE_CHECKING, NamedTuple
 
-from .errors import RecipeError
-from .recipe_scene import adjustments_of, lacks, renderer_of, resolve_condition
+from ..errors import RecipeError
+from .condition_scene import adjustments_of, lacks, renderer_of, resolve_condition
 
 if TYPE_CHECKING:
-    from .conditions import Condition
-    from .recipe import Recipe
+    from ..conditions import Condition
+    from . import Recipe
 
 
 class Finding(NamedTuple):

@@ -10,8 +10,8 @@ from collections.abc import Callable, Mapping
 from dataclasses import dataclass
 from typing import Any, Literal, NamedTuple, TypeVar
 
-from .scene.render_scene import Film, Integrator
-from .spectra import BandKind, Bands
+from ..scene.render_scene import Film, Integrator
+from ..spectra import BandKind, Bands
 
 _Section = TypeVar("_Section")
 

@@ -10,13 +10,13 @@ from importlib import metadata
 from pathlib import Path
 from typing import Any
 
-from .conditions import Condition
-from .exr import is_whole
-from .files import write_text
+from ..conditions import Condition
+from ..exr import is_whole
+from ..files import write_text
+from ..recipe import Recipe
+from ..recipe.options import section_words
+from ..spectral_image import UNIT
 from .keys import Key
-from .recipe import Recipe
-from .recipe_options import section_words
-from .spectral_image import UNIT
 
 LOG = "log.jsonl"
 
@@ -95,7 +95,7 @@ def note(folder: Path, what: str, **words: Any) -> None:
 
 def library_version() -> str:
     """Return our own version."""
-    manifest = Path(__file__).parents[1] / "blender_manifest.toml"
+    manifest = Path(__file__).parents[2] / "blender_manifest.toml"
     if manifest.is_file():  # a checkout or an extension
         return str(tomllib.loads(manifest.read_text(encoding="utf-8"))["version"])
     return metadata.version("rtb_addon")

@@ -7,16 +7,16 @@ from collections.abc import Callable, Sequence
 from pathlib import Path
 from typing import TYPE_CHECKING
 
-from . import renderers
-from .renderers.fidelity import TABLE, unsupported
-from .renderers.interface import Renderer
-from .scene.adjustments import Adjustments, NativeLine
-from .scene.render_scene import RenderScene
-from .scene.resolve import Resolved, SceneSettings, resolve
+from .. import renderers
+from ..renderers.fidelity import TABLE, unsupported
+from ..renderers.interface import Renderer
+from ..scene.adjustments import Adjustments, NativeLine
+from ..scene.render_scene import RenderScene
+from ..scene.resolve import Resolved, SceneSettings, resolve
 
 if TYPE_CHECKING:
-    from .conditions import Condition
-    from .recipe import Recipe
+    from ..conditions import Condition
+    from . import Recipe
 
 FindFile = Callable[[str], Path | None]
 

@@ -9,15 +9,15 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
 
+from ..conditions import Condition
+from ..errors import RecipeError
+from ..files import temporary_prefix
+from ..recipe import Recipe
+from ..recipe.condition_scene import lacks, remaining_lines, renderer_of, resolve_condition
+from ..renderers.interface import RenderOptions, Report
+from ..spectral_image import SpectralImage
 from . import records
-from .conditions import Condition
-from .errors import RecipeError
-from .files import temporary_prefix
 from .keys import Key, key_of
-from .recipe import Recipe
-from .recipe_scene import lacks, remaining_lines, renderer_of, resolve_condition
-from .renderers.interface import RenderOptions, Report
-from .spectral_image import SpectralImage
 
 SCRATCH = ".unfinished"  # where cubes are written before they take their place
 

@@ -10,10 +10,10 @@ from functools import cached_property
 from pathlib import Path, PurePosixPath, PureWindowsPath
 from urllib.parse import unquote
 
-from .errors import RecipeError
-from .files import write_text
-from .spectra.files import spd_text
-from .spectra.library import served
+from ..errors import RecipeError
+from ..files import write_text
+from ..spectra.files import spd_text
+from ..spectra.library import served
 
 # What a batch writes itself; a file there never stands in for one of the recipe.
 GENERATED = {"scenes", "renderings", "layers", "images"}

@@ -12,9 +12,9 @@ from contextlib import contextmanager, suppress
 from pathlib import Path
 from typing import NamedTuple
 
-from .errors import RecipeError
-from .files import temporary_prefix
-from .processes import born, runs
+from ..errors import RecipeError
+from ..files import temporary_prefix
+from ..processes import born, runs
 
 NAME = "batch.lock"
 

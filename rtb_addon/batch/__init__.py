@@ -9,18 +9,18 @@ from contextlib import suppress
 from dataclasses import dataclass, field, replace
 from pathlib import Path
 
+from ..background import Event
+from ..conditions import Condition
+from ..errors import RecipeError
+from ..files import sweep
+from ..recipe import CONDITIONS, Recipe
+from ..recipe.locks import locked
+from ..recipe.options import section_words
+from ..worker import Task
 from . import records
-from .background import Event
-from .conditions import Condition
 from .crew import Crew
-from .errors import RecipeError
-from .files import sweep
 from .keys import Key, key_of, versions_of
-from .locks import locked
-from .recipe import CONDITIONS, Recipe
-from .recipe_options import section_words
 from .rendering import SCRATCH, Rendering, found, render_condition
-from .worker import Task
 
 _ENDS = {"done", "cached", "failed"}
 

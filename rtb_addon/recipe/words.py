@@ -7,8 +7,8 @@ from collections.abc import Mapping
 from dataclasses import fields
 from typing import Any
 
-from .errors import RecipeError
-from .recipe_options import Conventions, MontageOptions, RecipeOptions, section, section_words
+from ..errors import RecipeError
+from .options import Conventions, MontageOptions, RecipeOptions, section, section_words
 
 FORMAT = 1
 RECIPE = "recipe.json"

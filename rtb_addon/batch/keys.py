@@ -19,12 +19,12 @@ from typing import Any, NamedTuple
 
 import numpy as np
 
-from .conditions import Condition
-from .errors import RecipeError
-from .recipe import Recipe
-from .recipe_options import section_words
-from .recipe_scene import adjustments_of, renderer_of
-from .scene.adjustments import Adjustments
+from ..conditions import Condition
+from ..errors import RecipeError
+from ..recipe import Recipe
+from ..recipe.condition_scene import adjustments_of, renderer_of
+from ..recipe.options import section_words
+from ..scene.adjustments import Adjustments
 
 # Raised when the way from a folder to a RenderScene changes what comes out.
 ENGINE = 1

@@ -8,8 +8,8 @@ from collections import deque
 from collections.abc import Callable, Iterable, Iterator
 from contextlib import suppress
 
-from .background import Event, EventStream, close_input, send, start_child, stop_all
-from .worker import Task
+from ..background import Event, EventStream, close_input, send, start_child, stop_all
+from ..worker import Task
 
 GRACE = 0.4  # [s] that workers have to stop
 INTERVAL = 0.05  # [s] between two looks at whether somebody wants to stop

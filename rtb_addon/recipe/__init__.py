@@ -9,16 +9,17 @@ from functools import cached_property
 from pathlib import Path
 from typing import Any
 
-from . import locks, recipe_words
-from .conditions import Condition, Conditions, format_conditions, read_conditions
-from .errors import RecipeError
-from .files import write_bytes, write_text
-from .mappings import Mappings, read_mappings
-from .recipe_options import Conventions, MontageOptions, RecipeOptions
-from .recipe_problems import problems
-from .recipe_words import RECIPE
+from ..conditions import Condition, Conditions, format_conditions, read_conditions
+from ..errors import RecipeError
+from ..files import write_bytes, write_text
+from ..mappings import Mappings, read_mappings
+from ..scene.document import Scene
+from . import locks
+from . import words as recipe_words
+from .options import Conventions, MontageOptions, RecipeOptions
+from .problems import problems
 from .resources import Resources
-from .scene.document import Scene
+from .words import RECIPE
 
 PARENT, CONDITIONS, MAPPINGS = "parent.dae", "conditions.txt", "mappings.txt"
 
