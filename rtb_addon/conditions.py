@@ -4,10 +4,11 @@ from __future__ import annotations
 
 import re
 from collections.abc import Iterator, Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from pathlib import Path
 
 from .errors import RecipeError, choices
+from .scene.adjustments import Remark
 
 NAME = "imageName"
 # Spaces belong to a cell and nothing is quoted; commas count only right after a tab, as they always did.
@@ -33,17 +34,23 @@ class Condition:
     cells: Mapping[str, str]
     line: int = 0
 
+    @property
+    def parent_scene(self) -> str:
+        """The parent scene that the row names for itself, as RenderToolbox3 or 4 called that column."""
+        return self.cells.get("colladaFile") or self.cells.get("parentScene", "")
+
 
 @dataclass(frozen=True)
 class Conditions:
     """
-    A table: its variables and its rows, in the order of the file.
+    A table: its variables and its rows, in the order of the file, and what is odd about it.
 
     Iterate over it for its conditions; ``conditions[name]`` finds one.
     """
 
     variables: tuple[str, ...]
     rows: tuple[Condition, ...]
+    remarks: tuple[Remark, ...] = field(default=(), compare=False)
 
     @classmethod
     def single(cls, base: str) -> Conditions:
@@ -64,19 +71,20 @@ class Conditions:
         raise RecipeError(f"no condition is called {name}, there are {names}")
 
 
-def read_conditions(path: Path | str, base: str) -> Conditions:
+def read_conditions(path: Path | str, base: str, *, old: bool = False) -> Conditions:
     """
     Read a table of conditions.
 
     Parameters
     ----------
     base : rows without imageName are called base-001, base-002 ...
+    old : leave out rows of too few or too many cells, with a remark, as RenderToolbox3 did without one
     """
     try:
         content = Path(path).read_bytes()
     except OSError as error:
         raise RecipeError(f"cannot read the conditions {path}: {error.strerror}") from error
-    return parse_conditions(decoded(content), path, base)
+    return parse_conditions(decoded(content), path, base, old=old)
 
 
 def decoded(content: bytes) -> str:
@@ -87,20 +95,28 @@ def decoded(content: bytes) -> str:
         return content.decode("latin-1")
 
 
-def parse_conditions(text: str, file: str | Path, base: str) -> Conditions:
+def parse_conditions(text: str, file: str | Path, base: str, *, old: bool = False) -> Conditions:
     """Return the table in a text; its first line that is no comment names the variables."""
     lines = [
         (number, _CELL.findall(line)) for number, line in enumerate(text.split("\n"), 1) if _counts(line)
     ]
     if not lines:
         raise RecipeError("an empty table, its first line must name the variables", file)
-    (_, header), *rows = lines
+    (first, header), *rows = lines
     variables = tuple(header)
+    odd = [Remark(message, str(file), first) for message in _oddities(header, bool(rows))]
+    if old:
+        odd += [
+            Remark(f"{_counted(cells, variables)}, the row is left out", str(file), line)
+            for line, cells in rows
+            if len(cells) != len(variables)
+        ]
+        rows = [(line, cells) for line, cells in rows if len(cells) == len(variables)]
     conditions = [
         _row(variables, cells, (file, line), f"{base}-{k:03}") for k, (line, cells) in enumerate(rows, 1)
     ]
     _refuse_twins(conditions, file)
-    return Conditions(variables, tuple(conditions))
+    return Conditions(variables, tuple(conditions), tuple(odd))
 
 
 def format_conditions(conditions: Conditions) -> str:
@@ -113,12 +129,23 @@ def _counts(line: str) -> bool:
     return bool(line.strip()) and not line.lstrip().startswith("%")
 
 
+def _oddities(header: list[str], has_rows: bool) -> Iterator[str]:
+    for name in dict.fromkeys(header):
+        if header.count(name) > 1:
+            yield f"{name} names {header.count(name)} columns, the first one counts"
+        if "," in name:
+            yield f"the comma belongs to the name '{name}', write tabs between names"
+        if name != name.strip():
+            yield f"the blanks belong to the name '{name}'"
+    if not has_rows:
+        yield "no rows follow the names of the variables, so there is no condition"
+
+
 def _row(
     variables: tuple[str, ...], cells: list[str], place: tuple[str | Path, int], default: str
 ) -> Condition:
     if len(cells) != len(variables):
-        counts = f"{_count(len(cells), 'value')} for {_count(len(variables), 'variable')}"
-        raise RecipeError(f"{counts} ({', '.join(variables)})", *place)
+        raise RecipeError(_counted(cells, variables), *place)
     # Of columns with the same name the first counts.
     filled = dict(reversed(list(zip(variables, cells, strict=True))))
     name = filled.get(NAME, default)
@@ -145,6 +172,11 @@ def _formatted(cells: list[str]) -> str:
             f"a table cannot hold the cells {shown}: no empty cells, tabs, line ends or leading %"
         )
     return line + "\n"
+
+
+def _counted(cells: list[str], variables: tuple[str, ...]) -> str:
+    counts = f"{_count(len(cells), 'value')} for {_count(len(variables), 'variable')}"
+    return f"{counts} ({', '.join(variables)})"
 
 
 def _count(number: int, noun: str) -> str:

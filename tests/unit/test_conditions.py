@@ -12,6 +12,10 @@ from rtb_addon.errors import RecipeError
 
 RTB3 = Path(os.environ.get("RTB3_FOLDER", Path(__file__).resolve().parents[3] / "shared" / "rtb3"))
 
+RTB4 = Path(os.environ.get("RTB4_FOLDER", RTB3.parent / "rtb4"))
+# Columns and rows of RenderToolbox4's, in no order.
+RTB4_TABLES = [(2, 1), (2, 24), (3, 1), (3, 1), (9, 8)]
+
 # Columns and rows of the tables that RenderToolbox3 shipped, counted by an independent reader.
 OLD_TABLES = {
     "DiceTransformationsConditions": (2, 4),
@@ -83,6 +87,35 @@ def test_a_row_with_too_few_cells_says_where_and_for_which_variables():
     )
 
 
+@pytest.mark.parametrize("row", ["1", "1\t\t", "1\t2\t3"])
+def test_an_old_table_goes_without_rows_of_another_length_and_says_so(row):
+    conditions = parse_conditions(f"a\tb\n{row}\n3\t4\n", "conditions.txt", "base", old=True)
+    assert [(each.name, each.cells["a"], each.line) for each in conditions] == [("base-001", "3", 3)]
+    (remark,) = conditions.remarks
+    assert str(remark).startswith("conditions.txt:2: ")
+    assert str(remark).endswith("for 2 variables (a, b), the row is left out")
+
+
+@pytest.mark.parametrize(
+    ("text", "words"),
+    [
+        ("a\ta\n1\t2", "a names 2 columns, the first one counts"),
+        ("a,b\n1,2", "the comma belongs to the name 'a,b', write tabs between names"),
+        ("a \tb\n1\t2", "the blanks belong to the name 'a '"),
+        ("a\tb", "no rows follow"),
+    ],
+)
+def test_what_is_odd_in_a_header_is_said_with_its_place(text, words):
+    (remark,) = table("% what this is\n" + text).remarks
+    assert str(remark).startswith(f"conditions.txt:2: {words}")
+
+
+def test_a_row_may_name_a_parent_scene_in_the_words_of_both_toolboxes():
+    assert table("colladaFile\ta\nx.dae\t1").rows[0].parent_scene == "x.dae"
+    assert table("parentScene\ta\nx.dae\t1").rows[0].parent_scene == "x.dae"
+    assert table("a\n1").rows[0].parent_scene == ""
+
+
 def test_rows_without_names_are_numbered():
     assert [row.name for row in table("paint\nred\nblue\n")] == ["base-001", "base-002"]
     assert [row.name for row in Conditions.single("base")] == ["base"]
@@ -145,6 +178,14 @@ def test_conditions_survive_writing_and_reading(data, variables):
     again = table(format_conditions(conditions))
     assert [row.cells for row in again] == [dict(zip(variables, row, strict=True)) for row in rows]
     assert again == conditions
+
+
+def test_every_table_that_rendertoolbox4_shipped_reads_without_a_remark():
+    if not RTB4.is_dir():
+        pytest.skip(f"RENDERTOOLBOX4'S FILES ARE NOT HERE: no {RTB4}, set RTB4_FOLDER")
+    found = [read_conditions(path, "base") for path in RTB4.rglob("*Conditions*.txt")]
+    assert sorted((len(each.variables), len(each)) for each in found) == RTB4_TABLES
+    assert not any(each.remarks for each in found)
 
 
 def test_every_table_that_rendertoolbox3_shipped_reads_as_counted():
