@@ -62,6 +62,7 @@ def find_program() -> Path | None:
 def blender(tmp_path_factory) -> RealBlender:
     """Return a real Blender with the zip installed and enabled."""
     if (program := find_program()) is None:
+        _missing.append(MISSING)
         pytest.skip(MISSING)
     folder = tmp_path_factory.mktemp("blender-user")
     real = RealBlender(program, {**os.environ, "BLENDER_USER_RESOURCES": str(folder), "RTB_SCREEN": SCREEN})
@@ -85,3 +86,12 @@ def build_zip(real: RealBlender, folder: Path) -> Path:
     built = subprocess.run(command, capture_output=True, text=True, check=False)
     assert built.returncode == 0, built.stderr
     return next(folder.glob("*.zip"))
+
+
+_missing: list[str] = []
+
+
+def pytest_terminal_summary(terminalreporter):
+    """Say loudly at the very end that this room could not run."""
+    if _missing:
+        terminalreporter.section(_missing[0], sep="!", red=True, bold=True)

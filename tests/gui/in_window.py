@@ -183,14 +183,26 @@ def disturb_batches(driver: Driver, folder: Path):
     driver.report["undo leaves the batch alone"] = batch is not None and batch._child.poll() is None
     bpy.ops.wm.open_mainfile(filepath=bpy.data.filepath)
     driver.report.setdefault("left", {})["opening a file"] = children()
+    yield from show_montage_beside(driver)
     bpy.context.scene.rtb.samples = LONG
-    yield 0.5
     yield from start(driver)
     addon_utils.disable(EXTENSION)
     driver.report["left"]["disabling"] = children()
     addon_utils.enable(EXTENSION)
     yield 0.5
     driver.report["cubes kept"] = [len(cubes), all(f.stat().st_mtime_ns == when for f, when in cubes.items())]
+
+
+def show_montage_beside(driver: Driver):
+    """Show the montage where no Image Editor is open."""
+    yield 1.0
+    before = driver.area("IMAGE_EDITOR")
+    with bpy.context.temp_override(window=driver.window):
+        bpy.ops.rtb.show_montage()
+    yield 1.5
+    driver.photograph("montage-beside")
+    image = driver.area("IMAGE_EDITOR").spaces.active.image
+    driver.report["montage beside"] = [before is None, image.name]
 
 
 def quit_while_rendering(driver: Driver):

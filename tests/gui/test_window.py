@@ -14,6 +14,7 @@ PANELS = (
     "recipe",
     "rendering",
     "montage",
+    "montage-beside",
     "error",
 )
 
@@ -46,6 +47,12 @@ def test_a_click_renders_in_another_process_and_shows_the_montage(report):
     name, size = report["montage"]
     assert name.endswith(".png")
     assert size == [3 * 80, 2 * 60]
+
+
+def test_show_montage_opens_an_image_editor_where_there_is_none(report):
+    none_before, name = report["montage beside"]
+    assert none_before
+    assert name == "cube.png"
 
 
 def test_blender_stays_usable_while_a_batch_renders(report):
