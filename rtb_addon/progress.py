@@ -51,12 +51,11 @@ class ProgressBar:
         if event.kind == "progress" and event.message:
             self._bar.write(f"{event.condition}: {event.message}", file=sys.stderr)
         self._bar.total = event.total
-        self._bar.n = event.finished + sum(self._fractions.values())
+        reached = event.finished + sum(self._fractions.values())
         left = "" if event.remaining is None else f"{_clock(event.remaining)} left"
         self._bar.set_postfix_str(left, refresh=False)
-        self._bar.update(0)
+        self._bar.update(reached - self._bar.n)
         if not event.condition and event.kind in {"finished", "cancelled"}:
-            self._bar.refresh()
             self._sum_up(event)
 
     def _count(self, event: Event) -> None:
