@@ -6,24 +6,20 @@ import sys
 from collections.abc import Iterable, Iterator
 from pathlib import Path
 from types import TracebackType
+from typing import TYPE_CHECKING
 
 from .background import Event
 from .recipe.resources import listed
+
+if TYPE_CHECKING:
+    from tqdm import tqdm
 
 
 class ProgressBar:
     """A bar of conditions with the time that is left; at the end, where things are."""
 
     def __enter__(self) -> ProgressBar:
-        from tqdm import tqdm
-
-        self._bar = tqdm(
-            total=1,  # until the first event says how many
-            bar_format="{l_bar}{bar}| {n:.1f} of {total} conditions{postfix}",
-            delay=0.1,
-            mininterval=0.1 if sys.stderr.isatty() else 5.0,
-            file=sys.stderr,
-        )
+        self._bar: tqdm | None = None
         self._fractions: dict[str, float] = {}
         self._failed: dict[str, list[str]] = {}
         self._counts: dict[str, int] = dict.fromkeys(("done", "cached", "failed"), 0)
@@ -34,7 +30,8 @@ class ProgressBar:
     def __exit__(
         self, kind: type[BaseException] | None, error: BaseException | None, trace: TracebackType | None
     ) -> None:
-        self._bar.close()
+        if self._bar is not None:
+            self._bar.close()
 
     def shown(self, events: Iterable[Event]) -> Iterator[Event]:
         """Show events while they pass."""
@@ -48,14 +45,15 @@ class ProgressBar:
         elif event.condition:
             self._fractions[event.condition] = event.fraction
         self._warnings |= dict.fromkeys(event.warnings)
+        self._bar = self._bar or _bar(event.total)
         if event.kind == "progress" and event.message:
             self._bar.write(f"{event.condition}: {event.message}", file=sys.stderr)
-        self._bar.total = event.total
         reached = event.finished + sum(self._fractions.values())
         left = "" if event.remaining is None else f"{_clock(event.remaining)} left"
         self._bar.set_postfix_str(left, refresh=False)
         self._bar.update(reached - self._bar.n)
         if not event.condition and event.kind in {"finished", "cancelled"}:
+            self._bar.close()
             self._sum_up(event)
 
     def _count(self, event: Event) -> None:
@@ -67,7 +65,6 @@ class ProgressBar:
             self._folders[str(Path(event.file).parent)] = None
 
     def _sum_up(self, event: Event) -> None:
-        self._bar.close()
         for sentence in self._warnings:
             print(f"warning: {sentence}", file=sys.stderr)
         for sentence, names in self._failed.items():
@@ -79,6 +76,17 @@ class ProgressBar:
             print(f"radiance cubes: {folder}")
         if event.file:
             print(f"montage: {event.file}")
+
+
+def _bar(total: int) -> tqdm:
+    from tqdm import tqdm
+
+    return tqdm(
+        total=total,
+        bar_format="{l_bar}{bar}| {n:.1f} of {total} conditions{postfix}",
+        mininterval=0.1 if sys.stderr.isatty() else 5.0,
+        file=sys.stderr,
+    )
 
 
 def _clock(seconds: float) -> str:
