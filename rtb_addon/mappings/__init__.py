@@ -18,13 +18,22 @@ from ..conditions import Condition, decoded
 from ..errors import RecipeError
 from ..scene.adjustments import Adjustments, Remark
 from .blocks import Block, format_blocks, parse_blocks
+from .changes import Change, format_changes, parse_changes
 from .fill_blocks import fill_blocks
+from .fill_changes import fill_changes
 from .filling import Filling
 
 if TYPE_CHECKING:
     from ..scene.document import Scene
 
-__all__ = ["Mappings", "format_blocks", "format_mappings", "parse_mappings", "read_mappings"]
+__all__ = [
+    "Mappings",
+    "format_blocks",
+    "format_changes",
+    "format_mappings",
+    "parse_mappings",
+    "read_mappings",
+]
 
 FindFile = Callable[[str], Path | None]
 
@@ -37,20 +46,30 @@ class Mappings:
     Parameters
     ----------
     text : of the file
-    file : its name, for messages
+    file : its name, for messages; one that ends in .json holds RenderToolbox4's syntax
     """
 
     text: str = ""
     file: str = "mappings.txt"
 
+    @property
+    def is_json(self) -> bool:
+        """Whether it holds RenderToolbox4's syntax."""
+        return Path(self.file).suffix.lower() == ".json"
+
     @cached_property
     def blocks(self) -> tuple[Block, ...]:
-        """Its blocks, in the order of the file."""
+        """Its blocks, in the order of the file; none in JSON."""
         return self._parsed[0]
 
     @cached_property
+    def changes(self) -> tuple[Change, ...]:
+        """Its changes, in the order of the file; none but in JSON."""
+        return parse_changes(self.text, self.file) if self.is_json else ()
+
+    @cached_property
     def _parsed(self) -> tuple[tuple[Block, ...], tuple[Remark, ...]]:
-        return parse_blocks(self.text, self.file)
+        return ((), ()) if self.is_json else parse_blocks(self.text, self.file)
 
     def fill_in(
         self, condition: Condition, renderer: str, document: Scene, find_file: FindFile
@@ -64,6 +83,8 @@ class Mappings:
         find_file : returns the recipe's file of a name, or None
         """
         filling = Filling(self.file, condition, document, find_file, list(self._parsed[1]))
+        if self.is_json:
+            return fill_changes(self.changes, filling, renderer)
         return fill_blocks(self.blocks, filling, renderer)
 
 
@@ -77,9 +98,9 @@ def read_mappings(path: Path | str) -> Mappings:
 
 
 def parse_mappings(text: str, file: str | Path) -> Mappings:
-    """Return the mappings in a text; raise what is wrong with its lines."""
+    """Return the mappings in a text, of the syntax that its file's name tells; raise what is wrong."""
     mappings = Mappings(text, str(file))
-    mappings.blocks  # noqa: B018  reading is what raises
+    mappings.blocks, mappings.changes  # noqa: B018  reading is what raises
     return mappings
 
 

@@ -112,6 +112,8 @@ class NativeDocument:
             return Change(remark="colours are promoted by what they are used for, their intent is left out")
         if _is_parallel_view(path, now, scene):
             return Change(remark="a parallel view has its width from the parent scene, so that is left out")
+        if not path.children and path.attribute == "type" and is_projection(path.id, now, scene):
+            return Change()
         return Change(tuple(self._lines(path, now)) or (f"{left} = {now}",))
 
     def _lines(self, path: ScenePath, now: str) -> Iterable[str]:
@@ -138,6 +140,12 @@ class NativeDocument:
         if element is not None and (name := local_name(element)) != "merge":
             return name
         return next((kind for end, kind in _KINDS.get(self._renderer, ()) if id.endswith(end)), "merge")
+
+
+def is_projection(id: str, kind: str, scene: Scene) -> bool:
+    """Return whether a camera of the parent scene has a projection, so that asking for it says nothing."""
+    lens = ScenePath("", id, (Child("optics"), Child("technique_common"), Child(kind)))
+    return kind in ("perspective", "orthographic") and find(scene.root, lens) is not None
 
 
 def _inner(child: Child) -> tuple[str, list[str]]:

@@ -38,6 +38,26 @@ class PathEdit(NamedTuple):
     line: int
 
 
+class MatrixEdit(NamedTuple):
+    """All transforms of a node, by its id, replaced by one matrix: 16 numbers, row by row, for columns."""
+
+    node: str
+    numbers: tuple[float, ...]
+    file: str
+    line: int
+
+
+class Removal(NamedTuple):
+    """A node, or all that places a light, camera or geometry, taken out of the document."""
+
+    id: str
+    file: str
+    line: int
+
+
+Edit = PathEdit | MatrixEdit | Removal
+
+
 class Property(NamedTuple):
     """
     A property of a neutral object.
@@ -102,7 +122,7 @@ class Adjustments:
     remarks : what is odd about them
     """
 
-    edits: tuple[PathEdit, ...] = ()
+    edits: tuple[Edit, ...] = ()
     objects: tuple[NeutralObject, ...] = ()
     native: tuple[NativeLine, ...] = ()
     remarks: tuple[Remark, ...] = ()

@@ -2,14 +2,15 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator
+from collections.abc import Iterator
 from typing import NamedTuple
 
 import numpy as np
 
 from ..errors import RecipeError, at
 from ..spectra import FloatArray
-from .collada_sources import child, children, floats, text_of
+from .collada_sources import child, children, text_of
+from .collada_transforms import local_matrix
 from .document import Scene
 from .paths import Element, local_name
 
@@ -82,7 +83,8 @@ def _below(
 ) -> Iterator[Instance]:
     if node in above:
         raise RecipeError(f"the node {node.get('id')} holds itself", document.file, document.line_of(node))
-    to_world = parent @ _local_matrix(document, node)
+    with at(document.file, document.line_of(node)):
+        to_world = parent @ local_matrix(node)
     for each in node:
         kind = local_name(each)
         if kind in ("instance_geometry", "instance_light", "instance_camera", "instance_controller"):
@@ -93,70 +95,3 @@ def _below(
             yield from _below(document, linked, to_world, (*above, node))
     for inner in children(node, "node"):
         yield from _below(document, inner, to_world, (*above, node))
-
-
-def _local_matrix(document: Scene, node: Element) -> FloatArray:
-    """Return what a node's transforms do together; the last one acts first."""
-    matrix = np.eye(4)
-    for each in node:
-        name = local_name(each)
-        with at(document.file, document.line_of(each)):
-            if name == "skew":
-                raise ValueError(f"the node {node.get('id')} is skewed, apply its transform in the modeller")
-            if name in _TRANSFORMS:
-                count, make = _TRANSFORMS[name]
-                matrix = matrix @ make(_of_node(node, each, count))
-    return matrix
-
-
-def _of_node(node: Element, each: Element, count: int) -> FloatArray:
-    try:
-        return floats(each, count)
-    except ValueError as error:
-        raise ValueError(f"{error}, in the node {node.get('id')}") from error
-
-
-def _translation(numbers: FloatArray) -> FloatArray:
-    matrix = np.eye(4)
-    matrix[:3, 3] = numbers
-    return matrix
-
-
-def _scale(numbers: FloatArray) -> FloatArray:
-    return np.diag([*numbers, 1.0])
-
-
-def _rotation(numbers: FloatArray) -> FloatArray:
-    """Return a turn about an axis by an angle [degrees] (Rodrigues)."""
-    length = float(np.linalg.norm(numbers[:3]))
-    if length == 0:
-        raise ValueError("a rotate needs an axis, not 0 0 0")
-    x, y, z = numbers[:3] / length
-    cross = np.array([[0, -z, y], [z, 0, -x], [-y, x, 0]])
-    angle = np.radians(numbers[3])
-    matrix = np.eye(4)
-    matrix[:3, :3] += np.sin(angle) * cross + (1 - np.cos(angle)) * cross @ cross
-    return matrix
-
-
-def _look_at(numbers: FloatArray) -> FloatArray:
-    """Return where something stands that looks along its -Z axis from an eye to a point, +Y up."""
-    eye, point, up = numbers.reshape(3, 3)
-    back = eye - point
-    right = np.cross(up, back)
-    if not np.linalg.norm(right) > 0:
-        raise ValueError("a lookat needs two points and a direction up that is not the way it looks")
-    columns = [right, np.cross(back, right), back]
-    matrix = np.eye(4)
-    matrix[:3, :3] = np.stack([each / np.linalg.norm(each) for each in columns], axis=1)
-    matrix[:3, 3] = eye
-    return matrix
-
-
-_TRANSFORMS: dict[str, tuple[int, Callable[[FloatArray], FloatArray]]] = {
-    "matrix": (16, lambda numbers: numbers.reshape(4, 4)),
-    "translate": (3, _translation),
-    "rotate": (4, _rotation),
-    "scale": (3, _scale),
-    "lookat": (9, _look_at),
-}

@@ -11,8 +11,9 @@ from pathlib import Path
 from typing import Any
 
 from ..errors import RecipeError, at, choices
-from .adjustments import Adjustments, PathEdit, Remark
-from .paths import Element, local_name, parse_path, read, write
+from .adjustments import Adjustments, Edit, Remark
+from .edits import apply
+from .paths import Element, local_name, parse_path, read
 
 _DECLARED = re.compile(rb"""^\s*<\?xml[^>]*?encoding\s*=\s*["']([\w.-]+)["'][^>]*\?>""")
 # Those in which "<!" is what it is in ASCII.
@@ -36,7 +37,7 @@ class Scene:
         self,
         root: Element,
         file: str | Path,
-        edits: tuple[PathEdit, ...] = (),
+        edits: tuple[Edit, ...] = (),
         remarks: tuple[Remark, ...] = (),
     ) -> None:
         self.root, self.file, self.remarks = root, str(file), remarks
@@ -91,6 +92,23 @@ class Scene:
         known = self.root.xpath("//*[local-name()=$what]/@id", what=what)
         raise RecipeError(f"there is no {what} {url}, only {choices((url or '')[1:], known)}", self.file)
 
+    def of_kind(self, name: str) -> list[Element]:
+        """Return the elements of a name, in the order of the document."""
+        return list(self.root.iter(f"{{*}}{name}"))
+
+    def users_of(self, element: Element) -> list[Element]:
+        """Return the nodes that place a light, a camera or a geometry."""
+        return self._users.get(element.get("id"), [])
+
+    @cached_property
+    def _users(self) -> dict[str, list[Element]]:
+        found: dict[str, list[Element]] = {}
+        for node in self.of_kind("node"):
+            for each in node:
+                if local_name(each).startswith("instance_") and (url := each.get("url", "")).startswith("#"):
+                    found.setdefault(url[1:], []).append(node)
+        return found
+
     def value_at(self, path: str) -> str | None:
         """Return the text or attribute that a path leads to, or None."""
         return read(self.root, parse_path(path))
@@ -114,13 +132,12 @@ class Scene:
 
         return etree.tostring(self.root, xml_declaration=True, encoding="utf-8")
 
-    def _applied(self, root: Element, edit: PathEdit) -> Iterable[Remark]:
+    def _applied(self, root: Element, edit: Edit) -> Iterable[Remark]:
         with at(edit.file, edit.line):
-            path = parse_path(edit.path)
-            known = write(root, path, edit.operator, edit.value)
-        if not known:
-            near = choices(path.id, self.ids, 5)
-            message = f"nothing in {Path(self.file).name} has the id {path.id}, there are {near}"
+            missing = apply(root, edit)
+        if missing:
+            near = choices(missing, self.ids, 5)
+            message = f"nothing in {Path(self.file).name} has the id {missing}, there are {near}"
             yield Remark(message, edit.file, edit.line)
 
 

@@ -234,6 +234,7 @@ def adjusted(*lines, renderer="mitsuba", block="Mitsuba-path"):
         ),
         (["Camera-camera_sampler.type = halton"], ["Camera-camera_sampler:sampler:halton"]),
         (["Camera-camera.type = thinlens"], ["Camera-camera:sensor:thinlens"]),
+        (["Camera-camera.type = perspective"], []),  # it is already
         (["integrator:ref|name=map.id = checks"], ["integrator:map.texture = checks"]),
         (["Camera-camera$ = merge", "Camera-camera_film$ = merge"], []),
         (

@@ -122,6 +122,11 @@ def pixel_of(camera, film, point):
         ("<lookat>0 0 5 0 0 0 0 1 0</lookat>", (1, 2, -1), (1, 2, 4)),
         ("<lookat>5 0 0 0 0 0 0 0 1</lookat>", (0, 0, -5), (0, 0, 0)),
         ("<lookat>5 0 0 0 0 0 0 0 1</lookat>", (0, 1, 0), (5, 0, 1)),
+        ("<skew>45 0 1 0 1 0 0</skew>", (0, 2, 0), (2, 2, 0)),
+        ("<skew>45 0 1 0 1 0 0</skew>", (3, 0, 1), (3, 0, 1)),
+        # An axis half-way to the other one and 15 degrees more of it.
+        ("<skew>15 0 0 1 0 1 0 </skew>", (0, 0, 1), (0, 0.2679491924311227, 1)),
+        ("<skew>15 0 1 1 0 1 0 </skew>", (0, 0, 1), (0, 0.7320508075688772, 1)),
     ],
 )
 def test_every_transform_acts_in_its_turn(transforms, point, expected):
@@ -131,7 +136,9 @@ def test_every_transform_acts_in_its_turn(transforms, point, expected):
 @pytest.mark.parametrize(
     ("transforms", "words"),
     [
-        ("<skew>30 0 1 0 1 0 0</skew>", "the node Wall is skewed"),
+        ("<skew>30 0 1 0 0 2 0</skew>", "must not be parallel, in the node Wall"),
+        ("<skew>90 0 1 0 1 0 0</skew>", "turns its axis too far"),
+        ("<skew>30 0 0 0 1 0 0</skew>", "a skew needs two axes"),
         ("<scale>2</scale>", "a scale holds 1 numbers, want 3, in the node Wall"),
         ("<rotate>0 0 0 30</rotate>", "needs an axis"),
         ("<lookat>0 0 1 0 0 0 0 0 1</lookat>", "a direction up"),
