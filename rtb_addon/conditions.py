@@ -45,12 +45,15 @@ class Conditions:
     """
     A table: its variables and its rows, in the order of the file, and what is odd about it.
 
+    ``left_out`` counts the rows of an old table that had too few or too many cells.
+
     Iterate over it for its conditions; ``conditions[name]`` finds one.
     """
 
     variables: tuple[str, ...]
     rows: tuple[Condition, ...]
     remarks: tuple[Remark, ...] = field(default=(), compare=False)
+    left_out: int = field(default=0, compare=False)
 
     @classmethod
     def single(cls, base: str) -> Conditions:
@@ -105,6 +108,7 @@ def parse_conditions(text: str, file: str | Path, base: str, *, old: bool = Fals
     (first, header), *rows = lines
     variables = tuple(header)
     odd = [Remark(message, str(file), first) for message in _oddities(header, bool(rows))]
+    every = len(rows)
     if old:
         odd += [
             Remark(f"{_counted(cells, variables)}, the row is left out", str(file), line)
@@ -116,7 +120,7 @@ def parse_conditions(text: str, file: str | Path, base: str, *, old: bool = Fals
         _row(variables, cells, (file, line), f"{base}-{k:03}") for k, (line, cells) in enumerate(rows, 1)
     ]
     _refuse_twins(conditions, file)
-    return Conditions(variables, tuple(conditions), tuple(odd))
+    return Conditions(variables, tuple(conditions), tuple(odd), every - len(rows))
 
 
 def format_conditions(conditions: Conditions) -> str:

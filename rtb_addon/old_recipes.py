@@ -61,16 +61,20 @@ def import_recipe(
     name = re.sub(r"[^\w .-]", "_", parent.stem).strip(" .") or "recipe"
     scene, table_text = _bytes_of(parent), _text_of(conditions)
     mappings_text = DEFAULT_MAPPINGS if mappings is None else _text_of(mappings)
-    table = parse_conditions(table_text, conditions, name) if conditions else Conditions.single(name)
+    table = (
+        parse_conditions(table_text, conditions, name, old=True) if conditions else Conditions.single(name)
+    )
+    changes = parse_mappings(mappings_text, mappings or name)
     search = Search([path.parent for path in (parent, conditions, mappings) if path], data)
     wanted = _Wanted(search)
     wanted.of_parent(parent)
-    wanted.of_family(Scene.parse(scene, parent), table, parse_mappings(mappings_text, mappings or name))
+    wanted.of_family(Scene.parse(scene, parent), table, changes)
     recipe = write_recipe(
         folder,
         name,
         options,
-        Conventions(units, "rtb3"),
+        # RenderToolbox4 mirrored cameras by itself, its files hold no mirroring.
+        Conventions(units, "blender" if changes.is_json else "rtb3"),
         MontageOptions(),
         scene,
         table,
@@ -80,10 +84,11 @@ def import_recipe(
             "imported from": [path.name for path in (parent, conditions, mappings) if path],
             "library version": records.library_version(),
         },
+        json_mappings=changes.is_json,
     )
-    if conditions:  # with its comments
+    if conditions and not table.left_out:  # with its comments
         write_text(recipe.folder / CONDITIONS, table_text)
-    return recipe, list(wanted.sentences())
+    return recipe, [*map(str, table.remarks), *wanted.sentences()]
 
 
 class Search:
@@ -173,7 +178,7 @@ class _Wanted:
 
     def _own(self, condition: Condition, document: Scene, mappings: Mappings) -> tuple[Scene, Mappings]:
         """Return the parent scene and the mappings of a condition, where its row names its own."""
-        if (name := condition.cells.get("colladaFile")) and (file := self.find(name)):
+        if (name := condition.parent_scene) and (file := self.find(name)):
             self.of_parent(file)
             document = Scene.read(file)
         if (name := condition.cells.get("mappingsFile")) and (file := self.find(name)):
@@ -198,8 +203,4 @@ def _bytes_of(file: Path) -> bytes:
 
 
 def _text_of(file: Path | None) -> str:
-    if file is None:
-        return ""
-    if file.suffix.lower() == ".json":
-        raise RecipeError(f"{file.name} is JSON, only RenderToolbox3's text files can be imported")
-    return decoded(_bytes_of(file))
+    return "" if file is None else decoded(_bytes_of(file))

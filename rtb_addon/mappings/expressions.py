@@ -214,10 +214,10 @@ def _same_size(left: Number, right: Number, combine: Callable[..., Number]) -> N
 
 def _product(left: Number, right: Number) -> Number:
     if not (np.ndim(left) and np.ndim(right)):
-        return np.asarray(left, float) * right
+        return np.multiply(left, right)
     if np.shape(left)[-1:] != np.shape(right)[:1] or np.ndim(right) < 2:
         raise ValueError(f"{np.shape(left)} and {np.shape(right)} numbers cannot be multiplied")
-    return np.asarray(left, float) @ np.asarray(right, float)
+    return np.matmul(left, right)
 
 
 def _quotient(left: Number, right: Number) -> Number:

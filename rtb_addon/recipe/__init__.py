@@ -22,6 +22,7 @@ from .resources import Resources
 from .words import RECIPE
 
 PARENT, CONDITIONS, MAPPINGS = "parent.dae", "conditions.txt", "mappings.txt"
+JSON_MAPPINGS = "mappings.json"  # RenderToolbox4's, where there is no mappings.txt
 
 
 @dataclass(frozen=True, eq=False)
@@ -94,8 +95,9 @@ class Recipe:
     @cached_property
     def mappings(self) -> Mappings:
         """What conditions change in the scene, where none names a mappings file of its own."""
-        file = self.folder / MAPPINGS
-        return self.once(file, lambda: read_mappings(file)) if file.is_file() else Mappings()
+        there = (self.folder / name for name in (MAPPINGS, JSON_MAPPINGS))
+        file = next((file for file in there if file.is_file()), None)
+        return Mappings() if file is None else self.once(file, lambda: read_mappings(file))
 
     def mappings_of(self, condition: Condition) -> Mappings:
         """Return the mappings of a condition: the recipe's, or its mappingsFile."""
@@ -106,7 +108,7 @@ class Recipe:
 
     def parent_file(self, condition: Condition) -> Path:
         """Return the parent scene's file of a condition: the recipe's, or its colladaFile."""
-        if name := condition.cells.get("colladaFile"):
+        if name := condition.parent_scene:
             return self._file_of(condition, name, "parent scene")
         if not (file := self.folder / PARENT).is_file():
             raise RecipeError(f"{self.folder} holds no {PARENT}, the parent scene of its conditions")
@@ -194,6 +196,8 @@ def write_recipe(
     mappings: str,
     resources: Mapping[str, bytes],
     provenance: Mapping[str, Any],
+    *,
+    json_mappings: bool = False,
 ) -> Recipe:
     """
     Write a recipe's folder and return the recipe; what a folder held besides is kept.
@@ -204,6 +208,7 @@ def write_recipe(
     mappings : text of the mappings file
     resources : contents of files by their names below resources/
     provenance : who made it, with what
+    json_mappings : whether the mappings are RenderToolbox4's JSON
     """
     folder = Path(folder)
     locks.refuse_if_locked(folder)
@@ -211,7 +216,9 @@ def write_recipe(
     for file, content in resources.items():
         write_bytes(folder / "resources" / file, content)
     write_bytes(folder / PARENT, parent)
-    write_text(folder / MAPPINGS, mappings)
+    written, other = (JSON_MAPPINGS, MAPPINGS) if json_mappings else (MAPPINGS, JSON_MAPPINGS)
+    write_text(folder / written, mappings)
+    (folder / other).unlink(missing_ok=True)
     if conditions.variables:
         write_text(folder / CONDITIONS, format_conditions(conditions))
     else:

@@ -49,6 +49,8 @@ def _findings(recipe: Recipe) -> Iterator[Finding]:
         yield Finding(error)
         conditions = ()
         yield from _mapping_problems(recipe)
+    else:
+        yield from (Finding(None, str(remark)) for remark in conditions.remarks)
     for condition in conditions:
         yield from _condition_findings(recipe, condition)
     yield from (Finding(None, sentence) for sentence in recipe.resources.warnings)

@@ -213,6 +213,25 @@ def test_import_without_tables_makes_one_condition_with_the_camera_mirrored_back
     assert recipe.problems() == []
 
 
+def test_import_takes_rendertoolbox4s_json_and_leaves_out_rows_of_another_length(tmp_path, run, old_recipe):
+    changes = [
+        {"name": "Lamp", "broadType": "lights", "specificType": "point", "operation": "update"},
+        {"name": "Lamp", "broadType": "nodes", "operation": "delete", "destination": "mexximp", "group": "x"},
+    ]
+    (tmp_path / "old.json").write_text(json.dumps(changes))
+    (tmp_path / "rows.txt").write_text("imageName\tgroupName\na\ty\nb\n")
+    status, _, error = run(
+        "import", old_recipe[0], tmp_path / "rows.txt", tmp_path / "old.json", "--output", tmp_path / "new"
+    )
+    assert status == 0
+    assert "rows.txt:3: 1 value for 2 variables (imageName, groupName), the row is left out" in error
+    recipe = Recipe.load(tmp_path / "new")
+    assert recipe.conventions.handedness == "blender"
+    assert [row.name for row in recipe.conditions] == ["a"]
+    assert len(recipe.mappings.changes) == 2
+    assert not (recipe.folder / "mappings.txt").exists()
+
+
 def test_import_reads_nothing_outside_the_named_folders(tmp_path, run, old_recipe):
     parent, conditions, mappings = old_recipe
     (tmp_path / "secret.spd").write_text("400 1\n")
