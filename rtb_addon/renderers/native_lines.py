@@ -16,7 +16,14 @@ from ..errors import RecipeError
 from ..scene.render_scene import Integrator
 from .interface import NativeLine
 
-INTEGRATORS = ("path", "direct")
+# Our own, and those of Mitsuba 0.5 that come to the same picture as path, with other noise.
+INTEGRATORS = {
+    "path": "path",
+    "direct": "direct",
+    "bdpt": "path",
+    "volpath": "path",
+    "volpath_simple": "path",
+}
 # What they change is the noise, so any of them may stand where a renderer has a sampler of its own.
 SAMPLERS = (
     "independent",
@@ -28,6 +35,15 @@ SAMPLERS = (
     "hammersley",
     "sobol",
 )
+# Settings that change the noise alone, or only how a sampler or integrator goes about it.
+_NOISE = (
+    *("shadingsamples", "emittersamples", "bsdfsamples", "rrdepth", "sampledirect", "lightimage"),
+    *("pixelsamples", "dimension", "scramble", "seed"),
+)
+# Switches that every renderer here has off.
+_OFF = ("ensureenergyconservation", "strictnormals", "hideemitters")
+# Paths without an end are followed this far; beyond it there is hardly any light left, in Mitsuba's counting.
+ENDLESS = 16
 
 
 class NativeSetting(NamedTuple):
@@ -74,7 +90,7 @@ def parse_native_line(line: NativeLine) -> NativeSetting:
 def integrator_with(integrator: Integrator, lines: Iterable[NativeLine], renderer: str) -> Integrator:
     """Return the integrator as native lines change it; RecipeError for a line with no meaning here."""
     for line in lines:
-        changes = _changes(parse_native_line(line), line)
+        changes = _changes(parse_native_line(line), line, integrator)
         if changes is None:
             raise RecipeError(
                 f"{renderer} has no use for '{line.text}', it knows the integrators path and direct,"
@@ -86,22 +102,28 @@ def integrator_with(integrator: Integrator, lines: Iterable[NativeLine], rendere
     return integrator
 
 
-def _changes(setting: NativeSetting, line: NativeLine) -> dict | None:
+def _changes(setting: NativeSetting, line: NativeLine, integrator: Integrator) -> dict | None:
     if setting.value is None:
-        return _declared(setting)
-    if setting.is_integrator and setting.name.lower() in ("maxdepth", "max_depth"):
-        return {"depth": _count(setting, line)}
-    if setting.is_sampler and setting.name.lower() in ("samplecount", "sample_count"):
+        return _declared(setting, integrator)
+    name = setting.name.lower().replace("_", "")
+    if setting.is_integrator and name == "maxdepth":
+        return {"depth": ENDLESS if setting.value == "-1" else _count(setting, line)}
+    if setting.is_sampler and name == "samplecount":
         return {"samples": _count(setting, line)}
-    return None
+    if name in _NOISE and (setting.is_integrator or setting.is_sampler):
+        return {}
+    return {} if name in _OFF and setting.value.lower() == "false" else None
 
 
-def _declared(setting: NativeSetting) -> dict | None:
+def _declared(setting: NativeSetting, integrator: Integrator) -> dict | None:
     if setting.name == "integrator" and setting.kind in INTEGRATORS:
-        return {"kind": setting.kind}
+        kind = INTEGRATORS[setting.kind]
+        # A recipe of direct light says nothing about how long paths are; Mitsuba's have no end.
+        longer = kind == "path" and integrator.kind == "direct"
+        return {"kind": kind, "depth": ENDLESS} if longer else {"kind": kind}
     if setting.name == "sampler" and setting.kind in SAMPLERS:
         return {}
-    return None
+    return {} if (setting.name, setting.kind) == ("rfilter", "box") else None
 
 
 def _count(setting: NativeSetting, line: NativeLine) -> int:

@@ -201,7 +201,7 @@ def test_the_lines_of_a_mitsuba_block_change_depth_and_samples(tmp_path):
     assert properties(root.find("sensor/sampler"))["sample_count"] == "1024"
 
 
-@pytest.mark.parametrize("text", ["integrator:integrator:bdpt", "Red-material:bsdf:ward"])
+@pytest.mark.parametrize("text", ["integrator:integrator:photonmapper", "Red-material:bsdf:ward"])
 def test_a_line_that_mitsuba_does_not_understand_is_refused_where_it_stands(tmp_path, text):
     with pytest.raises(RecipeError, match=r"^mappings.txt:7: Mitsuba has no use for"):
         xml(scene(), tmp_path, [line(text)])

@@ -107,9 +107,9 @@ def test_mitsuba_lines_change_the_integrator(full, tmp_path):
 @pytest.mark.parametrize(
     "text",
     [
-        "integrator:integrator:bdpt",
+        "integrator:integrator:photonmapper",
         "Vase-mesh:flipNormals.boolean = true",
-        "integrator:maxDepth.integer = -1",
+        "integrator:maxDepth.integer = 0",
         "Camera-camera_sampler:sampleCount.integer = many",
         "nonsense",
     ],
