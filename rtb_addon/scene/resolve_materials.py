@@ -3,7 +3,8 @@
 from __future__ import annotations
 
 from collections.abc import Iterable, Mapping
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
+from functools import cached_property
 
 from ..errors import at
 from ..spectra import Spectrum, Unit
@@ -17,6 +18,8 @@ from .render_scene import Material, Texture, TextureUse
 from .values import Values
 
 _REFERENCES = ("materialID", "otherMaterialID")
+# Declared under an id of their own, they go around the material that they name, wherever it is used.
+_AROUND = ("bumpmap", "normalmap")
 
 
 @dataclass
@@ -42,15 +45,14 @@ class Materials:
         """Make a material of this id, and whatever it refers to, part of the scene."""
         if id in self.made:
             return
-        declared = self.declared.get(id)
-        self.made[id] = self._promoted(id) if declared is None else self._declared(declared)
-        for name, value in self.made[id].parameters.items():
-            if name in _REFERENCES and isinstance(value, str):
-                self.use(value)
-            elif isinstance(value, TextureUse):
-                self._use_texture(value.texture, id)
-            elif name == "textureID" and isinstance(value, str):
-                self._use_texture(value, id)
+        if (around := self._around.get(id)) is None:
+            self._make(id, id)
+            return
+        inner = f"{id}-inner"
+        wrapped = self._declared(around)
+        self.made[id] = replace(wrapped, id=id, parameters={**wrapped.parameters, "materialID": inner})
+        self._use_texture(str(wrapped.parameters["textureID"]), around)
+        self._make(id, inner)
 
     def emission(self, id: str) -> Spectrum | None:
         """Return the radiance of an undeclared material that emits, or None."""
@@ -58,11 +60,33 @@ class Materials:
 
     def unused(self) -> list[Remark]:
         """Return a remark for each material that is declared for nothing."""
+        around = {each.id for id, each in self._around.items() if id in self.made}
         return [
             Remark(f"{each.id} is the material of nothing in the scene", each.file, each.line)
             for each in self.declared.values()
-            if each.category == "material" and each.id not in self.made
+            if each.category == "material" and each.id not in self.made and each.id not in around
         ]
+
+    @cached_property
+    def _around(self) -> dict[str, Declaration]:
+        """What goes around materials, by their ids."""
+        return {
+            each.said["materialID"].value: each
+            for each in self.declared.values()
+            if each.model in _AROUND and "materialID" in each.said and self.document.element(each.id) is None
+        }
+
+    def _make(self, id: str, name: str) -> None:
+        declared = self.declared.get(id)
+        made = self._promoted(id) if declared is None else self._declared(declared)
+        self.made[name] = replace(made, id=name)
+        for parameter, value in made.parameters.items():
+            if parameter in _REFERENCES and isinstance(value, str):
+                self.use(value)
+            elif declared and isinstance(value, TextureUse):
+                self._use_texture(value.texture, declared)
+            elif declared and parameter == "textureID" and isinstance(value, str):
+                self._use_texture(value, declared)
 
     def _declared(self, declared: Declaration) -> Material:
         if declared.category != "material":
@@ -96,11 +120,10 @@ class Materials:
         with at(self.document.file, self.document.line_of(effect)):
             return read_effect(effect)
 
-    def _use_texture(self, id: str, material: str) -> None:
+    def _use_texture(self, id: str, user: Declaration) -> None:
         declared = self.declared.get(id)
         if declared is None or not declared.category.endswith("Texture"):
-            user = self.declared[material]
-            raise user.error(f"{material} uses a texture {id}, declare it: {id}:spectrumTexture:bitmap")
+            raise user.error(f"{user.id} uses a texture {id}, declare it: {id}:spectrumTexture:bitmap")
         self.textures[id] = Texture(id, declared.model, parameters_of(declared, self.values))
 
 

@@ -530,6 +530,36 @@ def test_a_texture_is_used_by_its_id():
     assert scene.textures["checks"].parameters["checksPerU"] == 8
 
 
+METAL = ("Paint-material:eta.spectrum = 300:1", "Paint-material:k.spectrum = 300:1")
+BUMPS = (
+    "checks:floatTexture:checkerboard",
+    "Bumps:material:bumpmap",
+    "Bumps:materialID.string = Paint-material",
+    "Bumps:textureID.string = checks",
+)
+
+
+@pytest.mark.parametrize("lines", [BUMPS, ("Paint-material:material:metal", *METAL, *BUMPS)])
+def test_bumps_go_around_the_material_that_they_name(lines):
+    found = resolved(room(), generic(*lines))
+    (shape,) = found.scene.shapes
+    outer = found.scene.materials[shape.material]
+    assert (outer.id, outer.model, outer.parameters["scale"]) == ("Paint-material", "bumpmap", 1)
+    inner = found.scene.materials[outer.parameters["materialID"]]
+    assert (inner.id, inner.model) == ("Paint-material-inner", "metal" if len(lines) > 4 else "matte")
+    assert outer.parameters["textureID"] in found.scene.textures
+    assert not any("material of nothing" in each for each in found.warnings)
+
+
+def test_bumps_that_are_a_shapes_own_material_leave_others_flat():
+    builder = room()
+    builder.plane("Floor", 2, 2, "Bumps")
+    lines = (each.replace("Bumps:", "Bumps-material:") for each in BUMPS)
+    scene = resolved(builder, generic(*lines)).scene
+    assert [scene.materials[each.material].model for each in scene.shapes] == ["matte", "bumpmap"]
+    assert scene.materials["Bumps-material"].parameters["materialID"] == "Paint-material"
+
+
 MATTE = "Paint-material:material:matte"
 
 
