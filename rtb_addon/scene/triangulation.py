@@ -63,7 +63,7 @@ def _are_convex(polygons: FloatArray) -> np.ndarray:
 
 def _ears(corners: IntArray, polygon: FloatArray) -> IntArray:
     """Return the triangles of one polygon by cutting off ears, seen along its normal."""
-    flat = _flattened(polygon)
+    flat = flattened(polygon, polygon)
     left, triangles = list(range(len(corners))), []
     while len(left) > 3:
         ear = next((k for k in range(len(left)) if _is_ear(flat, left, k)), None)
@@ -74,13 +74,13 @@ def _ears(corners: IntArray, polygon: FloatArray) -> IntArray:
     return corners[np.array([*triangles, left])]
 
 
-def _flattened(polygon: FloatArray) -> FloatArray:
-    """Return (corners, 2) coordinates in which the polygon runs counter-clockwise."""
-    centred = polygon - polygon.mean(axis=0, dtype=float)
-    normal = _normals(centred)
+def flattened(points: FloatArray, polygon: FloatArray) -> FloatArray:
+    """Return (n, 2) coordinates of points, in which a polygon of their plane runs counter-clockwise."""
+    centre = polygon.mean(axis=0, dtype=float)
+    normal = _normals(polygon - centre)
     drop = int(np.abs(normal).argmax())
     axes = [(drop + 1) % 3, (drop + 2) % 3]
-    return centred[:, axes if normal[drop] >= 0 else axes[::-1]]
+    return (points - centre)[:, axes if normal[drop] >= 0 else axes[::-1]]
 
 
 def _is_ear(flat: FloatArray, left: list[int], k: int) -> bool:

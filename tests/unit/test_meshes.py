@@ -7,7 +7,7 @@ from hypothesis import strategies as st
 from lxml import etree
 
 from rtb_addon.scene.build import SceneBuilder
-from rtb_addon.scene.collada_meshes import geometry_parts, read_geometry
+from rtb_addon.scene.collada_meshes import geometry_parts, left_out, read_geometry
 from rtb_addon.scene.document import Scene
 from rtb_addon.scene.triangulation import triangulate
 
@@ -62,6 +62,8 @@ def facing(mesh):
         f'<polylist count="1">{VERTEX}<vcount>4</vcount><p>0 1 2 3</p></polylist>',
         f'<polylist count="2">{VERTEX}<vcount>3 3 </vcount><p>0 1 2 0 2 3</p></polylist>',
         f'<polygons count="1">{VERTEX}<p>0 1 2 3</p></polygons>',
+        f'<polygons count="1">{VERTEX}<ph><p>0 1 2 3</p></ph></polygons>',
+        f'<trifans count="2">{VERTEX}<p>0 1 2 3</p><p>0 1</p></trifans>',
     ],
 )
 def test_each_kind_of_primitive_gives_the_same_square(primitives):
@@ -70,6 +72,73 @@ def test_each_kind_of_primitive_gives_the_same_square(primitives):
     np.testing.assert_array_equal(mesh.vertices, np.float32(SQUARE))
     assert mesh.normals is None
     assert mesh.uvs is None
+
+
+def test_every_second_triangle_of_a_strip_runs_the_other_way():
+    points = [[0, 0, 0], [1, 0, 0], [0, 1, 0], [1, 1, 0], [0, 2, 0], [9, 0, 0], [9, 1, 0], [8, 0, 0]]
+    primitives = f'<tristrips count="2">{VERTEX}<p>0 1 2 3 4</p><p>5 6 7</p></tristrips>'
+    mesh = only_mesh(geometry(source("p", points), primitives))
+    assert mesh.triangles.tolist() == [[0, 1, 2], [2, 1, 3], [2, 3, 4], [5, 6, 7]]
+    np.testing.assert_allclose(facing(mesh), [0, 0, 2])
+
+
+def ring(count, radius, centre=(0, 0), back=False):
+    angles = np.linspace(0, 2 * np.pi, count, endpoint=False)[:: -1 if back else 1]
+    return np.column_stack([centre[0] + radius * np.cos(angles), centre[1] + radius * np.sin(angles)])
+
+
+def ring_area(count, radius):
+    return count / 2 * radius**2 * np.sin(2 * np.pi / count)
+
+
+@pytest.mark.parametrize("back", [False, True])
+@pytest.mark.parametrize("count", [3, 4, 17])
+@pytest.mark.parametrize("turn", [np.eye(3), np.eye(3)[[1, 2, 0]], np.diag([1, -1, -1])])
+def test_a_polygon_with_holes_is_covered_but_for_its_holes(turn, count, back):
+    rings = [
+        ring(count, 10),
+        *(ring(5, 0.7, centre, back) for centre in ((-1, 0), (2, 1), (0.5, -2), (2, -1))),
+    ]
+    flat = np.concatenate(rings)
+    points = np.column_stack([flat, np.zeros(len(flat))]) @ turn.T
+    ends = np.cumsum([len(each) for each in rings])
+    outline, *holes = [" ".join(map(str, each)) for each in np.split(np.arange(len(flat)), ends[:-1])]
+    ph = f"<ph><p>{outline}</p>" + "".join(f"<h>{hole}</h>" for hole in holes) + "</ph>"
+    more = "<p>0 1 2</p>"  # an ordinary polygon behind it
+    mesh = only_mesh(geometry(source("p", points), f'<polygons count="2">{VERTEX}{ph}{more}</polygons>'))
+    a, b, c = points[[0, 1, 2]]
+    extra = np.cross(b - a, c - a)[np.abs(turn[:, 2]).argmax()] / 2
+    expected = ring_area(count, 10) - 4 * ring_area(5, 0.7)
+    assert area(mesh) == pytest.approx(expected + abs(extra), rel=1e-5)
+    np.testing.assert_allclose(facing(mesh), turn[:, 2] * (expected + abs(extra)), atol=1e-4)
+    assert len(mesh.triangles) == count + 4 * 5 + 2 * 4 - 2 + 1
+
+
+def test_a_part_takes_the_set_of_texture_coordinates_that_is_wanted():
+    sets = [[[0, 0], [1, 0], [1, 1], [0, 1]], [[0, 0], [2, 0], [2, 2], [0, 2]]]
+    sources = source("p", SQUARE) + "".join(source(f"t{k}", uv, ("S", "T")) for k, uv in enumerate(sets))
+    texture = "".join(
+        f'<input semantic="TEXCOORD" source="#t{k}" offset="{k + 1}" set="{number}"/>'
+        for k, number in enumerate((3, 1))
+    )
+    corners = " ".join(f"{k} {k} {k}" for k in (0, 1, 2, 0, 2, 3))
+    primitives = f'<triangles material="wood" count="2">{VERTEX}{texture}<p>{corners}</p></triangles>'
+    element = geometry(sources, primitives)
+    for wanted, expected in (({}, 2), ({"wood": 1}, 2), ({"wood": 3}, 1), ({"wood": 7}, 2), ({"tin": 3}, 2)):
+        (part,) = geometry_parts(element, wanted)
+        assert part.mesh.uvs is not None
+        assert part.mesh.uvs.max() == expected
+
+
+def test_what_is_no_face_is_left_out_and_said():
+    lines = f'<lines count="1">{VERTEX}<p>0 1</p></lines>'
+    triangles = f'<triangles count="1">{VERTEX}<p>0 1 2</p></triangles>'
+    element = geometry(source("p", SQUARE), lines + triangles)
+    assert len(read_geometry(element)) == 1
+    assert list(left_out(element)) == ["the lines of X-mesh are left out, only faces are drawn"]
+    spline = etree.fromstring('<geometry id="Curve" name="Path"><spline/></geometry>')
+    assert read_geometry(spline) == ()
+    assert list(left_out(spline)) == ["Path holds no mesh and is left out, export it as one"]
 
 
 @pytest.mark.parametrize("start", range(12))
@@ -218,10 +287,9 @@ def test_a_mesh_of_several_materials_has_a_part_for_each():
         ),
         (
             source("p", SQUARE),
-            f'<tristrips count="1">{VERTEX}<p>0 1 2</p></tristrips>',
-            "tristrips are not read",
+            f'<polygons count="1">{VERTEX}<ph><h>0 1 2</h></ph></polygons>',
+            "a polygon with holes has no outline",
         ),
-        (source("p", SQUARE), f'<polygons count="1">{VERTEX}<ph><p>0 1 2</p></ph></polygons>', "holes"),
         (
             source("q", SQUARE),
             f'<triangles count="1">{VERTEX}<p>0 1 2</p></triangles>',
