@@ -7,7 +7,7 @@ from contextlib import contextmanager
 
 import numpy as np
 
-from ..scene.surface import Corners, IntArray, Surface, distinct
+from ..scene.surface import Corners, IntArray, Surface, distinct_at
 from ..spectra import FloatArray
 
 # Objects that have triangles, by themselves or once they are evaluated.
@@ -37,32 +37,40 @@ def surface_of(mesh, symbols: tuple[str, ...]) -> Surface | None:
     """
     if mesh is None or len(mesh.polygons) == 0:
         return None
-    vertices = _read(mesh.vertices, "co", 3)
+    vertices = _read(mesh.attributes["position"].data, "vector", 3)
     mesh.calc_loop_triangles()
-    triangles = _read_indices(mesh.loop_triangles, "vertices", 3)
     loops = _read_indices(mesh.loop_triangles, "loops", 3)
+    corners = _read_indices(mesh.attributes[".corner_vert"].data, "value", 1)[:, 0]
+    triangles = corners[loops]
     polygons = _read_indices(mesh.loop_triangle_polygons, "value", 1)[:, 0]
     parts = np.minimum(_slots(mesh), max(len(symbols) - 1, 0))[polygons]
-    return Surface(
-        vertices, triangles, _normals(mesh, triangles, loops, polygons), _uvs(mesh, loops), parts, symbols
-    )
+    normals = _normals(mesh, corners, loops, polygons)
+    return Surface(vertices, triangles, normals, _uvs(mesh, corners, loops), parts, symbols)
 
 
-def _normals(mesh, triangles: IntArray, loops: IntArray, polygons: IntArray) -> Corners:
-    """Return the normals of corners: of vertices where all is smooth, of faces where all is flat."""
+def _normals(mesh, corners: IntArray, loops: IntArray, polygons: IntArray) -> Corners:
+    """
+    Return the normals of triangles' corners: of vertices where all is smooth, of faces where all is flat.
+
+    Parameters
+    ----------
+    corners : (loops,) array, the vertex of each
+    """
     if mesh.normals_domain == "POINT":
-        return Corners(_read(mesh.vertex_normals, "vector", 3), triangles)
+        return Corners(_read(mesh.vertex_normals, "vector", 3), corners[loops])
     if mesh.normals_domain == "FACE":
-        return Corners(_read(mesh.polygon_normals, "vector", 3), np.repeat(polygons[:, None], 3, axis=1))
-    shared = distinct(_read(mesh.corner_normals, "vector", 3))
+        return Corners(
+            _read(mesh.polygon_normals, "vector", 3), np.broadcast_to(polygons[:, None], (len(polygons), 3))
+        )
+    shared = distinct_at(_read(mesh.corner_normals, "vector", 3), corners)
     return Corners(shared.values, shared.indices[loops])
 
 
-def _uvs(mesh, loops: IntArray) -> Corners | None:
+def _uvs(mesh, corners: IntArray, loops: IntArray) -> Corners | None:
     layer = next((layer for layer in mesh.uv_layers if layer.active_render), None)
     if layer is None:
         return None
-    shared = distinct(_read(layer.uv, "vector", 2))
+    shared = distinct_at(_read(layer.uv, "vector", 2), corners)
     return Corners(shared.values, shared.indices[loops])
 
 

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import atexit
 from collections.abc import Iterable, Sequence
 
 import bpy
@@ -100,7 +101,7 @@ class RTB_PG_scene(bpy.types.PropertyGroup):
     active_variable: IntProperty(options={"HIDDEN", "SKIP_SAVE"}, min=0)
     active_condition: IntProperty(options={"HIDDEN", "SKIP_SAVE"}, min=0)
 
-    # Plain Python: a property of Blender's with functions of ours lets its Python module hang as it exits.
+    # Kept in one place, with the render settings: no properties of Blender's.
     @property
     def width(self) -> int:
         """Width of the pictures [pixels]."""
@@ -194,6 +195,9 @@ def register() -> None:
         bpy.utils.register_class(cls)
     for name, cls in _POINTERS:
         getattr(bpy.types, name).rtb = PointerProperty(type=cls)
+    if bpy.app.module:  # as a Python module, Blender hangs at its end while it knows classes of ours
+        atexit.unregister(unregister)
+        atexit.register(unregister)
 
 
 def unregister() -> None:

@@ -43,8 +43,8 @@ class ParentDocument:
         self.ids = Ids()
         self._head = write_collada.asset(tool, meter)
         self._libraries: dict[str, list[Element]] = {name: [] for name in _LIBRARIES}
-        self._scene_id = self.ids.take(name)
-        self._scene = write_collada.new("visual_scene", id=self._scene_id, name=name)
+        self._scene = write_collada.new("visual_scene", id=self.ids.take(name), name=name)
+        self._texts = write_collada.LongTexts()
         self._nodes: dict[str, Element] = {}
         self._used: dict[str, list[Element]] = {}
         self._with_uvs: set[str] = set()
@@ -59,7 +59,7 @@ class ParentDocument:
     def geometry(self, name: str, surface: Surface) -> str:
         """Make triangles that nodes may use, the same ones in many places."""
         id = self.ids.take(name, "-mesh")
-        self._libraries["geometries"].append(write_collada.geometry(id, name, surface))
+        self._libraries["geometries"].append(write_collada.geometry(id, name, surface, self._texts))
         if surface.uvs is not None:
             self._with_uvs.add(id)
         return id
@@ -121,7 +121,7 @@ class ParentDocument:
     def tobytes(self) -> bytes:
         """Return the document."""
         libraries = {f"library_{name}": elements for name, elements in self._libraries.items()}
-        return write_collada.document(self._head, libraries, self._scene, self._scene_id)
+        return write_collada.document(self._head, libraries, self._scene, self._texts)
 
     def _use(self, node: str, used: Element) -> None:
         """Put something where the format wants it: after the transform, before the nodes below."""

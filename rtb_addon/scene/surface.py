@@ -78,4 +78,23 @@ def distinct(rows: FloatArray) -> Corners:
     _, first, places = np.unique(keys, return_index=True, return_inverse=True)
     if not np.array_equal(rows[first][places.ravel()], rows):  # two rows share a key: rare, slow is fine
         _, first, places = np.unique(rows, axis=0, return_index=True, return_inverse=True)
-    return Corners(rows[first], places.ravel())
+    return Corners(rows[first], places.ravel().astype(np.int32))
+
+
+def distinct_at(values: FloatArray, places: IntArray) -> Corners:
+    """
+    Return each different row once, for rows that are mostly the same at the same place.
+
+    Parameters
+    ----------
+    values : (rows, n) array, of the corners of a mesh
+    places : (rows,) array, the vertex of each
+    """
+    rows = np.ascontiguousarray(values, np.float32) + np.float32(0)  # no -0
+    usual = np.zeros((int(places.max(initial=-1)) + 1, rows.shape[1]), np.float32)
+    usual[places] = rows
+    others = np.flatnonzero((usual[places] != rows).any(axis=1))
+    rest = distinct(rows[others])
+    indices = places.astype(np.int32)
+    indices[others] = len(usual) + rest.indices
+    return Corners(np.concatenate([usual, rest.values]), indices)

@@ -2,7 +2,8 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Mapping, Sequence
+import re
+from collections.abc import Iterator, Mapping, Sequence
 from typing import Any
 
 import numpy as np
@@ -10,7 +11,7 @@ from lxml import etree
 
 from ..spectra import FloatArray
 from .placement import Placement
-from .surface import Surface
+from .surface import IntArray, Surface
 from .write_numbers import floats, indices, number, numbers
 
 NAMESPACE = "http://www.collada.org/2005/11/COLLADASchema"
@@ -120,46 +121,73 @@ def material(id: str, name: str, effect_id: str) -> Element:
     return new("material", new("instance_effect", url=f"#{effect_id}"), id=id, name=name)
 
 
-def geometry(id: str, name: str, surface: Surface) -> Element:
+class LongTexts:
+    """Arrays of numbers, kept beside the elements: an XML library would look at each of their letters."""
+
+    _PLACE = re.compile(rb"(?<=>)\[\[(\d+)\]\](?=<)")
+
+    def __init__(self) -> None:
+        self._texts: list[bytes] = []
+
+    def keep(self, text: bytes) -> str:
+        """Return what stands for a text until the document is whole; nothing else can look like it."""
+        self._texts.append(text)
+        return f"[[{len(self._texts) - 1}]]"
+
+    def put_into(self, document: bytes) -> bytes:
+        """Return a document with each text in its place."""
+        parts: list[bytes] = self._PLACE.split(document)
+        parts[1::2] = [self._texts[int(number)] for number in parts[1::2]]
+        return b"".join(parts)
+
+
+def geometry(id: str, name: str, surface: Surface, texts: LongTexts) -> Element:
     """Return triangles with their normals and texture coordinates."""
-    mesh = new("mesh", _source(f"{id}-positions", surface.vertices, "XYZ"))
-    offsets, places = [("VERTEX", f"{id}-vertices")], [surface.triangles]
+    mesh = new("mesh", _source(f"{id}-positions", surface.vertices, "XYZ", texts))
+    inputs, places = [("VERTEX", f"{id}-vertices")], [surface.triangles]
     for semantic, part, axes, channel in (
         ("NORMAL", f"{id}-normals", "XYZ", surface.normals),
         ("TEXCOORD", f"{id}-map-0", "ST", surface.uvs),
     ):
         if channel is not None:
-            mesh.append(_source(part, channel.values, axes))
-            offsets.append((semantic, part))
+            mesh.append(_source(part, channel.values, axes, texts))
+            inputs.append((semantic, part))
             places.append(channel.indices)
     position = new("input", semantic="POSITION", source=f"#{id}-positions")
     mesh.append(new("vertices", position, id=f"{id}-vertices"))
-    mesh.extend(_triangles(surface, offsets, np.stack(places, axis=-1)))
+    for symbol, corners in _parts(surface, np.stack(places, axis=-1, dtype=np.int32, casting="same_kind")):
+        mesh.append(_triangles(symbol, inputs, corners, texts))
     return new("geometry", mesh, id=id, name=name)
 
 
-def _source(id: str, values: FloatArray, axes: str) -> Element:
+def _source(id: str, values: FloatArray, axes: str, texts: LongTexts) -> Element:
     count = len(values)
-    array = new("float_array", text=floats(values), id=f"{id}-array", count=count * len(axes))
+    text = texts.keep(floats(values))
+    array = new("float_array", text=text, id=f"{id}-array", count=count * len(axes))
     params = [new("param", name=axis, type="float") for axis in axes]
     accessor = new("accessor", *params, source=f"#{id}-array", count=count, stride=len(axes))
     return new("source", array, new("technique_common", accessor), id=id)
 
 
-def _triangles(surface: Surface, offsets: list[tuple[str, str]], places: Any) -> Iterable[Element]:
-    """Yield the triangles of each symbol."""
-    for part, symbol in enumerate(surface.symbols or ("",)):
-        chosen = places if len(surface.symbols) < 2 else places[surface.parts == part]
-        if len(chosen) == 0:
-            continue
-        inputs = [
-            new("input", semantic=semantic, source=f"#{source}", offset=offset)
-            for offset, (semantic, source) in enumerate(offsets)
-        ]
-        if offsets[-1][0] == "TEXCOORD":
-            inputs[-1].set("set", "0")
-        named = {"material": symbol} if symbol else {}
-        yield new("triangles", *inputs, new("p", text=indices(chosen)), **named, count=len(chosen))
+def _parts(surface: Surface, corners: IntArray) -> Iterator[tuple[str, IntArray]]:
+    """Yield the symbols that have triangles, with the corners of those."""
+    if len(surface.symbols) < 2:
+        yield "".join(surface.symbols), corners
+        return
+    for part, symbol in enumerate(surface.symbols):
+        if len(chosen := corners[surface.parts == part]):
+            yield symbol, chosen
+
+
+def _triangles(symbol: str, inputs: list[tuple[str, str]], corners: IntArray, texts: LongTexts) -> Element:
+    named = {"material": symbol} if symbol else {}
+    triangles = new("triangles", **named, count=len(corners))
+    for offset, (semantic, source) in enumerate(inputs):
+        triangles.append(new("input", semantic=semantic, source=f"#{source}", offset=offset))
+    if inputs[-1][0] == "TEXCOORD":
+        triangles[-1].set("set", "0")
+    triangles.append(new("p", text=texts.keep(indices(corners))))
+    return triangles
 
 
 def transform(where: Placement | Any) -> list[Element]:
@@ -199,20 +227,26 @@ def node(id: str, name: str, *content: Element) -> Element:
     return new("node", *content, id=id, name=name, type="NODE")
 
 
-def document(head: Element, libraries: Mapping[str, Sequence[Element]], nodes: Element, scene: str) -> bytes:
+def document(
+    head: Element,
+    libraries: Mapping[str, Sequence[Element]],
+    nodes: Element,
+    texts: LongTexts,
+) -> bytes:
     """
     Return a whole document.
 
     Parameters
     ----------
-    libraries : elements by the name of their library, in the order of the format
-    nodes : the visual scene, and scene its id
+    libraries : elements by the name of their library
+    nodes : the visual scene
+    texts : those of the geometries
     """
     root = new("COLLADA", head, version="1.4.1")
     root.extend(new(name, *elements) for name, elements in libraries.items() if elements)
     root.append(new("library_visual_scenes", nodes))
-    root.append(new("scene", new("instance_visual_scene", url=f"#{scene}")))
-    return etree.tostring(root, xml_declaration=True, encoding="utf-8", pretty_print=True)
+    root.append(new("scene", new("instance_visual_scene", url=f"#{nodes.get('id')}")))
+    return texts.put_into(etree.tostring(root, xml_declaration=True, encoding="utf-8", pretty_print=True))
 
 
 def _extra(parts: Sequence[Element]) -> Element:
