@@ -13,12 +13,18 @@ from typing import TYPE_CHECKING, Any
 if TYPE_CHECKING:
     from .background import Event
     from .batch import render_condition, render_recipe
+    from .batch.execute import execute_recipe
     from .conditions import Condition, Conditions
     from .errors import RecipeError, RenderingError
     from .montage import make_montage
     from .old_recipes import import_recipe
     from .recipe import Recipe, write_recipe
+    from .recipe.cleaning import clean_recipe
+    from .recipe.new import new_recipe
     from .recipe.options import Conventions, MontageOptions, RecipeOptions
+    from .recipe.packing import pack_recipe
+    from .recipe.problems import check_recipe
+    from .recipe.unpacking import unpack_recipe
     from .scene.build import SceneBuilder
     from .spectra import Bands, Spectrum
     from .spectral_image import SpectralImage
@@ -37,22 +43,34 @@ __all__ = [
     "SceneBuilder",
     "SpectralImage",
     "Spectrum",
+    "check_recipe",
+    "clean_recipe",
+    "execute_recipe",
     "import_recipe",
     "make_montage",
+    "new_recipe",
+    "pack_recipe",
     "render_condition",
     "render_recipe",
+    "unpack_recipe",
     "write_recipe",
 ]
 
 _ROOMS = {
     ".background": ("Event",),
     ".batch": ("render_condition", "render_recipe"),
+    ".batch.execute": ("execute_recipe",),
     ".conditions": ("Condition", "Conditions"),
     ".errors": ("RecipeError", "RenderingError"),
     ".montage": ("make_montage",),
     ".old_recipes": ("import_recipe",),
     ".recipe": ("Recipe", "write_recipe"),
+    ".recipe.cleaning": ("clean_recipe",),
+    ".recipe.new": ("new_recipe",),
     ".recipe.options": ("Conventions", "MontageOptions", "RecipeOptions"),
+    ".recipe.packing": ("pack_recipe",),
+    ".recipe.problems": ("check_recipe",),
+    ".recipe.unpacking": ("unpack_recipe",),
     ".scene.build": ("SceneBuilder",),
     ".spectra": ("Bands", "Spectrum"),
     ".spectral_image": ("SpectralImage",),

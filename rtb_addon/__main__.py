@@ -43,6 +43,8 @@ def _parser() -> argparse.ArgumentParser:
     _add_check(verb.add_parser("check", help="say everything that is wrong with a recipe"))
     _add_import(verb.add_parser("import", help="make a recipe folder of RenderToolbox3's files"))
     _add_montage(verb.add_parser("montage", help="make one picture of all renderings"))
+    _add_pack(verb.add_parser("pack", help="put a recipe and all files that it names into one zip"))
+    _add_unpack(verb.add_parser("unpack", help="make a recipe's folder of such a zip"))
     renderers = verb.add_parser("renderers", help="say which renderers are installed, and why not")
     renderers.add_argument("--json", action="store_true", help="print a line of JSON for each")
     renderers.set_defaults(verb=verbs.renderers_installed)
@@ -94,6 +96,19 @@ def _add_montage(montage: argparse.ArgumentParser) -> None:
     _add_folder(montage)
     montage.add_argument("--output", type=Path, metavar="FILE.png", help="else images/RENDERER/NAME.png")
     montage.set_defaults(verb=verbs.montage)
+
+
+def _add_pack(pack: argparse.ArgumentParser) -> None:
+    pack.add_argument("folder", type=Path, metavar="FOLDER", help="of the recipe")
+    pack.add_argument("file", type=Path, metavar="FILE.zip", help="the zip to write")
+    pack.add_argument("--renderings", action="store_true", help="with what was rendered, else without")
+    pack.set_defaults(verb=verbs.pack)
+
+
+def _add_unpack(unpack: argparse.ArgumentParser) -> None:
+    unpack.add_argument("file", type=Path, metavar="FILE.zip", help="which pack wrote")
+    unpack.add_argument("folder", type=Path, metavar="FOLDER", help="the recipe's new folder")
+    unpack.set_defaults(verb=verbs.unpack)
 
 
 def _add_folder(parser: argparse.ArgumentParser) -> None:

@@ -20,7 +20,9 @@ from .montage import make_montage, write_png
 from .old_recipes import import_recipe
 from .progress import ProgressBar
 from .recipe import Recipe
+from .recipe.packing import pack_recipe
 from .recipe.problems import findings
+from .recipe.unpacking import unpack_recipe
 
 FAILED, WRONG, CANCELLED = 1, 2, 130
 
@@ -69,6 +71,21 @@ def import_files(said: Namespace) -> int:
         print(sentence, file=sys.stderr)
     count = len(recipe.conditions)
     print(f"{recipe.name}: {count} condition{'s' * (count != 1)} in {recipe.folder}")
+    return 0
+
+
+def pack(said: Namespace) -> int:
+    """Put a recipe into one file."""
+    for sentence in pack_recipe(said.folder, said.file, renderings=said.renderings):
+        print(f"warning: {sentence}", file=sys.stderr)
+    print(said.file)
+    return 0
+
+
+def unpack(said: Namespace) -> int:
+    """Make a recipe's folder of such a file."""
+    recipe = unpack_recipe(said.file, said.folder)
+    print(recipe.folder)
     return 0
 
 

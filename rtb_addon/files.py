@@ -32,7 +32,7 @@ def replacing(path: Path) -> Iterator[Path]:
     temporary = Path(name)
     try:
         yield temporary
-        temporary.chmod(0o666 & ~_umask())
+        temporary.chmod(0o666 & ~umask())
         temporary.replace(path)
     finally:
         temporary.unlink(missing_ok=True)
@@ -67,7 +67,8 @@ def temporary_prefix(pid: int) -> str:
     return f".writing-{socket.gethostname()}-{pid}-"
 
 
-def _umask() -> int:
+def umask() -> int:
+    """Return which permissions this process gives nobody."""
     mask = os.umask(0)
     os.umask(mask)
     return mask

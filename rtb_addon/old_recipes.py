@@ -13,12 +13,12 @@ from urllib.parse import unquote
 
 from . import renderers
 from .batch import records
-from .batch.keys import texture_names
 from .conditions import Condition, Conditions, decoded, parse_conditions
 from .errors import RecipeError
 from .files import write_text
 from .mappings import Mappings, parse_mappings
 from .recipe import CONDITIONS, Recipe, write_recipe
+from .recipe.named_files import texture_names
 from .recipe.options import Conventions, MontageOptions, RecipeOptions
 from .recipe.resources import leads_outside, listed
 from .scene.document import Scene

@@ -9,11 +9,9 @@ from __future__ import annotations
 import dataclasses
 import hashlib
 import json
-import re
 from collections.abc import Mapping
 from contextlib import suppress
 from functools import cache
-from html import unescape
 from pathlib import Path
 from typing import Any, NamedTuple
 
@@ -23,6 +21,7 @@ from ..conditions import Condition
 from ..errors import RecipeError
 from ..recipe import Recipe
 from ..recipe.condition_scene import adjustments_of, renderer_of
+from ..recipe.named_files import texture_names
 from ..recipe.options import section_words
 from ..scene.adjustments import Adjustments
 
@@ -30,7 +29,6 @@ from ..scene.adjustments import Adjustments
 ENGINE = 1
 # Where something was said, or that it was odd, does not change what was said.
 _UNSAID = {"file", "line", "remarks"}
-_TEXTURE = re.compile(rb"<(?:\w+:)?init_from[^>]*>\s*([^<]+?)\s*<")
 
 
 class Key(NamedTuple):
@@ -130,14 +128,3 @@ def _digest(file: Path, size: int, time: int) -> str:
             return hashlib.file_digest(content, "sha256").hexdigest()
     except OSError as error:
         raise RecipeError(f"cannot read {file}: {error.strerror}") from error
-
-
-def texture_names(parent: Path) -> list[str]:
-    """Return the files that a parent scene's image library names."""
-    return _texture_names(*_state_of(parent))
-
-
-@cache
-def _texture_names(file: Path, size: int, time: int) -> list[str]:
-    found = _TEXTURE.findall(file.read_bytes())
-    return sorted({unescape(name.decode(errors="replace")) for name in found})

@@ -69,6 +69,8 @@ class Recipe:
             raise RecipeError(f"{error.msg}, it must be JSON", RECIPE, error.lineno) from error
         except UnicodeDecodeError as error:
             raise RecipeError("it must be JSON in UTF-8", RECIPE) from error
+        except (ValueError, RecursionError) as error:  # a number or a nesting that only malice writes
+            raise RecipeError(f"it cannot be read: {error}", RECIPE) from error
         except OSError as error:
             raise RecipeError(f"it cannot be read: {error.strerror}", RECIPE) from error
         return cls(Path(folder), **recipe_words.parsed(words, Path(folder).absolute().name))

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
+from pathlib import Path
 from typing import TYPE_CHECKING, NamedTuple
 
 from ..errors import RecipeError
@@ -28,6 +29,17 @@ class Finding(NamedTuple):
     def sentence(self) -> str:
         """What to say."""
         return str(self.problem or self.warning)
+
+
+def check_recipe(folder: Path | str) -> list[RecipeError]:
+    """Return everything that is wrong with the recipe in a folder, not the first thing only."""
+    from . import Recipe
+
+    try:
+        recipe = Recipe.load(folder)
+    except RecipeError as error:
+        return [error]
+    return problems(recipe)
 
 
 def problems(recipe: Recipe) -> list[RecipeError]:
