@@ -1,5 +1,6 @@
 """Blender's own Python module, with a user folder of its own and the extension enabled from this checkout."""
 
+import importlib
 import importlib.util
 import os
 import tempfile
@@ -8,7 +9,7 @@ from pathlib import Path
 # Before the first `import bpy`: nobody's own Blender settings are read or written.
 os.environ["BLENDER_USER_RESOURCES"] = tempfile.mkdtemp(prefix="rtb-blender-user-")
 
-import bpy  # noqa: F401  before addon_utils can be found
+import bpy
 import pytest
 
 ROOT = Path(__file__).resolve().parents[2]
@@ -26,3 +27,63 @@ def extension() -> str:
     script.link_extension(Path(os.environ["BLENDER_USER_RESOURCES"]))
     assert addon_utils.enable(EXTENSION, default_set=True) is not None, "the extension does not enable"
     return EXTENSION
+
+
+@pytest.fixture(scope="session")
+def library(extension):
+    """Return a module of the library as Blender has loaded it: library("blender.lights")."""
+    return lambda name: importlib.import_module(f"{extension}.rtb_addon.{name}")
+
+
+@pytest.fixture
+def scene(extension):
+    """An empty scene that could be rendered once it had something in it: a camera, 8 x 6 pixels."""
+    bpy.ops.wm.read_homefile(use_factory_startup=True, use_empty=True)
+    scene = bpy.context.scene
+    camera = bpy.data.objects.new("Camera", bpy.data.cameras.new("Camera"))
+    scene.collection.objects.link(camera)
+    scene.camera = camera
+    scene.render.resolution_x, scene.render.resolution_y, scene.render.resolution_percentage = 8, 6, 100
+    return scene
+
+
+@pytest.fixture
+def put(scene):
+    """Return how to put an object into the scene: put("Lamp", data, location=(0, 0, 1))."""
+
+    def put_into_scene(name, content, **properties):
+        placed = bpy.data.objects.new(name, content)
+        scene.collection.objects.link(placed)
+        for key, value in properties.items():
+            setattr(placed, key, value)
+        return placed
+
+    return put_into_scene
+
+
+@pytest.fixture
+def lamp(put):
+    """Return how to put a lamp into the scene: lamp("POINT", energy=100)."""
+
+    def put_lamp(kind="POINT", name="Lamp", location=(0.0, 0.0, 3.0), **properties):
+        light = bpy.data.lights.new(name, kind)
+        for key, value in properties.items():
+            setattr(light, key, value)
+        return put(name, light, location=location)
+
+    return put_lamp
+
+
+@pytest.fixture
+def box(put):
+    """Return how to put a cube of a material into the scene: box("Box", location=(0, 0, 1))."""
+
+    def put_box(name="Box", material="Paint", **properties):
+        mesh = bpy.data.meshes.new(name)
+        corners = [(x, y, z) for x in (-1, 1) for y in (-1, 1) for z in (-1, 1)]
+        faces = [(0, 1, 3, 2), (4, 6, 7, 5), (0, 4, 5, 1), (2, 3, 7, 6), (0, 2, 6, 4), (1, 5, 7, 3)]
+        mesh.from_pydata(corners, [], faces)
+        mesh.materials.append(bpy.data.materials.get(material) or bpy.data.materials.new(material))
+        return put(name, mesh, **properties)
+
+    return put_box
