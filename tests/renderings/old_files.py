@@ -1,4 +1,4 @@
-"""RenderToolbox3's and RenderToolbox4's own files, imported as anybody would, and rendered in this process."""
+"""RenderToolbox3's and RenderToolbox4's own files, imported as anybody would, rendered in this process."""
 
 import os
 import subprocess

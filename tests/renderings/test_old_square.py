@@ -63,7 +63,7 @@ def family(request):
 
 @pytest.fixture(scope="module", params=RENDERERS)
 def old_square(request, olds):
-    """The pixel of the old figure in all 24 old pictures, and the figure's prediction by single wavelengths."""
+    """The old figure's pixel of all 24 pictures, and its prediction by single wavelengths."""
     return squares(olds[0], request.param)[:, 11, 11].astype(float), predicted(*olds, "centre")
 
 
@@ -95,7 +95,7 @@ def test_colours_are_those_of_the_averages_in_each_band(old_square, olds):
 
 
 def test_the_old_figures_differences_of_colour_come_out(old_square):
-    """RenderToolbox3 compared with single wavelengths: up to 0.87 of difference, the same for all renderers."""
+    """It compared with single wavelengths: up to 0.87 of difference, the same for all renderers."""
     pixels, by_wavelength = old_square
     stored = table("SimpleSquare-LAB-distance.csv")
     found = colour_differences(by_wavelength, pixels)
