@@ -103,7 +103,7 @@ class Remark(NamedTuple):
 
     message: str
     file: str
-    line: int
+    line: int | None
 
     def __str__(self) -> str:
         return str(RecipeError(self.message, self.file, self.line))

@@ -5,6 +5,7 @@ from __future__ import annotations
 from typing import NamedTuple
 
 from .collada_sources import blender_child, child, floats, number
+from .collada_textures import Picture, picture_in
 from .paths import Element, local_name
 
 Colour = tuple[float, float, float]
@@ -20,15 +21,15 @@ class Effect(NamedTuple):
     ----------
     diffuse : None where a texture or nothing stands for it
     emission : what it gives off
-    textured : whether a texture stands for its diffuse colour
+    picture : what stands for its diffuse colour, if a texture does
     """
 
     diffuse: Colour | None
     emission: Colour
-    textured: bool
+    picture: Picture | None = None
 
 
-NO_EFFECT = Effect(None, (0.0, 0.0, 0.0), False)
+NO_EFFECT = Effect(None, (0.0, 0.0, 0.0))
 
 
 class Lamp(NamedTuple):
@@ -56,8 +57,8 @@ def read_effect(effect: Element) -> Effect:
     if shading is None:
         return NO_EFFECT
     diffuse = child(shading, "diffuse")
-    textured = diffuse is not None and child(diffuse, "texture") is not None
-    return Effect(_colour(diffuse), _colour(child(shading, "emission")) or (0.0, 0.0, 0.0), textured)
+    picture = None if diffuse is None else picture_in(effect, diffuse)
+    return Effect(_colour(diffuse), _colour(child(shading, "emission")) or (0.0, 0.0, 0.0), picture)
 
 
 def read_lamp(light: Element) -> Lamp:

@@ -78,6 +78,9 @@ def parameters_of(
             chosen[name] = given[name]
         elif default is not None:
             chosen[name] = default
+        elif parameter.kind == "spectrum" and isinstance(parameter.default, str):
+            unsaid = Property(name, "spectrum", parameter.default, declared.file, declared.line)
+            chosen[name] = values.read(declared.id, parameter, unsaid)
         else:
             raise declared.error(f"{declared.id} must say its {name}, {declared.model} has no default for it")
     return chosen

@@ -2,22 +2,22 @@
 
 from __future__ import annotations
 
-import codecs
 import copy
 import re
 from collections.abc import Iterable
 from functools import cached_property
-from pathlib import Path
+from pathlib import Path, PurePosixPath
 from typing import Any
+from urllib.parse import unquote
 
 from ..errors import RecipeError, at, choices
 from .adjustments import Adjustments, Edit, Remark
+from .archives import is_archive, read_archive
+from .collada_text import utf8
 from .edits import apply
 from .paths import Element, local_name, parse_path, read
 
-_DECLARED = re.compile(rb"""^\s*<\?xml[^>]*?encoding\s*=\s*["']([\w.-]+)["'][^>]*\?>""")
-# Those in which "<!" is what it is in ASCII.
-_ENCODINGS = {"utf-8", "ascii", "iso8859-1", "iso8859-15", "cp1252"}
+_ESCAPED = re.compile(r"_x([0-9A-Fa-f]{4})_")
 # lxml keeps no line numbers above this one.
 _LAST_LINE = 65534
 
@@ -30,7 +30,7 @@ class Scene:
     ----------
     root : its root element
     file : its name, for messages
-    remarks : what was odd about the edits that made it
+    remarks : what was odd about its text and the edits that made it
     """
 
     def __init__(
@@ -54,13 +54,12 @@ class Scene:
 
     @classmethod
     def parse(cls, data: bytes, file: str | Path) -> Scene:
-        """Return the document in some bytes; it may hold no document type, hence no entities."""
+        """Return the document in some bytes, or in their archive; it may hold no entities."""
         from lxml import etree
 
-        text = _utf8(data, file)
-        # Entities in attributes are expanded even with resolve_entities off, so none get that far.
-        if b"<!DOCTYPE" in text or b"<!ENTITY" in text:
-            raise RecipeError("a parent scene may declare no document type and no entities", file)
+        if is_archive(data):
+            data = read_archive(data, file).scene
+        text, changes = utf8(data, file)
         parser = etree.XMLParser(
             encoding="utf-8", resolve_entities=False, no_network=True, load_dtd=False, huge_tree=True
         )
@@ -69,8 +68,8 @@ class Scene:
         except etree.XMLSyntaxError as error:
             raise RecipeError(f"this is no XML: {error.msg}", file, error.lineno or None) from error
         if local_name(root) != "COLLADA":
-            raise RecipeError(f"this is a {local_name(root)} document, want Collada 1.4", file)
-        return cls(root, file)
+            raise RecipeError(f"this is a {local_name(root)} document, want Collada 1.4 or 1.5", file)
+        return cls(root, file, remarks=tuple(Remark(each, str(file), None) for each in changes))
 
     @cached_property
     def ids(self) -> tuple[str, ...]:
@@ -87,10 +86,14 @@ class Scene:
 
     def linked(self, url: str | None, what: str) -> Element:
         """Return the element that a link like ``#Cube-mesh`` leads to."""
-        if url and url.startswith("#") and (found := self.element(url[1:])) is not None:
-            return found
+        place, _, id = (url or "").partition("#")
+        for name in dict.fromkeys((id, unquote(id), _unescaped(id))):
+            if name and (found := self.element(name)) is not None:
+                return found
+        if place and PurePosixPath(unquote(place)).name != Path(self.file).name:
+            raise RecipeError(f"the {what} {url} is in another file, export one that holds all", self.file)
         known = self.root.xpath("//*[local-name()=$what]/@id", what=what)
-        raise RecipeError(f"there is no {what} {url}, only {choices((url or '')[1:], known)}", self.file)
+        raise RecipeError(f"there is no {what} {url}, only {choices(id, known)}", self.file)
 
     def of_kind(self, name: str) -> list[Element]:
         """Return the elements of a name, in the order of the document."""
@@ -141,17 +144,6 @@ class Scene:
             yield Remark(message, edit.file, edit.line)
 
 
-def _utf8(data: bytes, file: str | Path) -> bytes:
-    """Return a document's bytes in UTF-8: what is searched must be just what is parsed."""
-    declared = _DECLARED.match(data.removeprefix(codecs.BOM_UTF8))
-    name = declared[1].decode() if declared else "utf-8"
-    wide = data.startswith((codecs.BOM_UTF16_LE, codecs.BOM_UTF16_BE))
-    try:
-        codec = "utf-16" if wide else codecs.lookup(name).name
-        if not wide and codec not in _ENCODINGS:
-            raise LookupError
-        return data if codec == "utf-8" else data.decode(codec).encode()
-    except LookupError:
-        raise RecipeError(f"its encoding is {name}, save it as UTF-8", file) from None
-    except UnicodeError as error:
-        raise RecipeError(f"its text is not {name}: {error}", file) from error
+def _unescaped(name: str) -> str:
+    """Return a name as it was before an exporter wrote ``_x0020_`` for a blank."""
+    return _ESCAPED.sub(lambda found: chr(int(found[1], 16)), name)

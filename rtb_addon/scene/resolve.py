@@ -11,6 +11,7 @@ from ..errors import RecipeError, at, choices
 from ..spectra import Spectrum
 from .adjustments import Adjustments, NativeLine
 from .collada_cameras import read_camera
+from .collada_left_out import left_out
 from .collada_nodes import Instance, instances, metres_per_unit
 from .declarations import declarations
 from .document import Scene
@@ -89,13 +90,17 @@ def resolve(
         integrator=settings.integrator,
         film=settings.film,
     )
-    left_out = [
+    controllers = [
         f"{one.name} follows a skeleton or morph and is left out"
         for one in placed
         if one.kind == "controller"
     ]
     remarks = map(str, (*adjustments.remarks, *document.remarks, *materials.unused()))
-    return Resolved(scene, adjustments.native, tuple(dict.fromkeys((*remarks, *left_out, *values.warnings))))
+    return Resolved(
+        scene,
+        adjustments.native,
+        tuple(dict.fromkeys((*remarks, *left_out(document), *controllers, *values.warnings))),
+    )
 
 
 def _camera(document: Scene, placed: list[Instance], settings: SceneSettings) -> Camera:

@@ -77,7 +77,9 @@ def _lamp(document: Scene, instance: Instance, declared: Declaration | None, val
 
 def _promoted(id: str, lamp: Lamp, to_world: np.ndarray, values: Values) -> Light | None:
     if lamp.kind == "ambient":
-        values.warnings.append(f"{id} is an ambient light, which no renderer knows, and left out")
+        values.warnings.append(
+            f"{id} is an ambient light and left out, declare it directional to have it as RenderToolbox3 had"
+        )
         return None
     parameters = {name: each.default_value() for name, each in LIGHTS[lamp.kind].items()}
     unit = Unit(LIGHTS[lamp.kind]["intensity"].unit)

@@ -6,17 +6,23 @@ from collections.abc import Iterable, Mapping
 from dataclasses import dataclass, field, replace
 from functools import cached_property
 
-from ..errors import at
+from ..errors import RecipeError, at
 from ..spectra import Spectrum, Unit
 from ..spectra.promotion import promoted
 from .adjustments import Remark
 from .collada_colours import NO_EFFECT, Effect, read_effect
 from .collada_sources import child
+from .collada_textures import image_file
 from .declarations import Declaration, parameters_of
 from .document import Scene
-from .render_scene import Material, Texture, TextureUse
+from .render_scene import Material, Texture, TextureUse, Value
 from .values import Values
+from .vocabulary import TEXTURES
 
+# The material of what has none; a recipe may declare it.
+NO_MATERIAL = "no-material"
+# Pictures that are coded for screens; others hold what they say.
+_CODED = (".png", ".jpg", ".jpeg", ".tga", ".bmp", ".gif")
 _REFERENCES = ("materialID", "otherMaterialID")
 # Declared under an id of their own, they go around the material that they name, wherever it is used.
 _AROUND = ("bumpmap", "normalmap")
@@ -53,6 +59,12 @@ class Materials:
         self.made[id] = replace(wrapped, id=id, parameters={**wrapped.parameters, "materialID": inner})
         self._use_texture(str(wrapped.parameters["textureID"]), around)
         self._make(id, inner)
+
+    def texcoord(self, id: str) -> str:
+        """Return what a material's own picture calls its texture coordinates, or nothing."""
+        if id == NO_MATERIAL or (picture := self._effect(id).picture) is None:
+            return ""
+        return picture.texcoord
 
     def emission(self, id: str) -> Spectrum | None:
         """Return the radiance of an undeclared material that emits, or None."""
@@ -98,19 +110,40 @@ class Materials:
         return Material(declared.id, declared.model, parameters_of(declared, self.values))
 
     def _promoted(self, id: str) -> Material:
-        effect = self._effect(id)
-        colour = effect.diffuse or (0.5, 0.5, 0.5)
+        effect = NO_EFFECT if id == NO_MATERIAL else self._effect(id)
         if any(effect.emission):
             self._emissions[id] = promoted(effect.emission, Unit.RADIANCE)
             self.values.warnings.append(
                 f"{id} has no mapping: its emission {_shown(effect.emission)} was promoted to a radiance"
             )
-        if id not in self.native:
-            why = "its texture is not read, grey" if effect.textured else "its colour"
+        return Material(id, "matte", {"diffuseReflectance": self._reflectance(id, effect)})
+
+    def _reflectance(self, id: str, effect: Effect) -> Value:
+        colour, why = effect.diffuse or (0.5, 0.5, 0.5), "its colour"
+        if effect.picture is not None:
+            try:
+                return self._picture(id, effect.picture.image)
+            except RecipeError as error:
+                why = f"{error.message}, grey"
+        if id not in self.native and id != NO_MATERIAL:
             self.values.warnings.append(
                 f"{id} has no mapping: {why} {_shown(colour)} was promoted to a reflectance"
             )
-        return Material(id, "matte", {"diffuseReflectance": promoted(colour)})
+        return promoted(colour)
+
+    def _picture(self, id: str, image: str) -> TextureUse:
+        """Make an image of the document a texture; raise where its file is not in the recipe."""
+        element = self.document.element(image)
+        name = "" if element is None else image_file(element)
+        file = self.values.find_file(name) if name else None
+        if file is None:
+            raise RecipeError(f"its picture {name or image} is not in the recipe's folder or its resources/")
+        defaults = {key: each.default_value() for key, each in TEXTURES["bitmap"].items()}
+        parameters = {key: value for key, value in defaults.items() if value is not None}
+        gamma = 2.2 if file.suffix.lower() in _CODED else 1.0
+        self.textures[image] = Texture(image, "bitmap", {**parameters, "filename": str(file), "gamma": gamma})
+        self.values.warnings.append(f"{id} has no mapping: its picture {name} was taken for its reflectance")
+        return TextureUse(image)
 
     def _effect(self, id: str) -> Effect:
         material = self.document.linked(f"#{id}", "material")

@@ -8,13 +8,15 @@ from functools import lru_cache
 
 import numpy as np
 
-from ..errors import RecipeError, at
+from ..errors import at
 from ..spectra import FloatArray, Spectrum
-from .collada_meshes import Part, geometry_parts
+from .collada_meshes import Part, geometry_parts, left_out
 from .collada_nodes import Instance
+from .collada_textures import uv_sets
 from .document import Scene
+from .paths import local_name
 from .render_scene import Mesh, Shape
-from .resolve_materials import Materials
+from .resolve_materials import NO_MATERIAL, Materials
 
 _MIRROR = np.diag([-1.0, 1.0, 1.0, 1.0])
 
@@ -32,14 +34,13 @@ def shapes_of(
     ----------
     emissions : radiance of those geometries that emit, by id
     """
-    parts = _parts_by_id(document, placed)
-    total = Counter[str]()
-    for instance in placed:
-        total[instance.thing.get("id")] += len(parts[instance.thing.get("id")])
-    made = Counter[str]()
-    for instance in placed:
+    parts = _parts_of_each(document, placed, materials)
+    total, made = Counter[str](), Counter[str]()
+    for instance, own in zip(placed, parts, strict=True):
+        total[instance.thing.get("id")] += len(own)
+    for instance, own in zip(placed, parts, strict=True):
         id = instance.thing.get("id")
-        for part in parts[id]:
+        for part in own:
             name = f"{id}_{made[id]}" if total[id] > 1 else id
             made[id] += 1
             if (shape := _shape(document, instance, part, name, materials, emissions.get(id))) is not None:
@@ -59,30 +60,44 @@ def _shape(
         materials.values.warnings.append(f"{instance.name} is scaled to nothing and left out")
         return None
     material = _material(document, instance, part.symbol)
+    if material == NO_MATERIAL:
+        materials.values.warnings.append(f"the object {instance.name} has no material and becomes grey")
     materials.use(material)
     mesh, to_world = (part.mesh, instance.to_world) if size > 0 else _unmirrored(part.mesh, instance.to_world)
     return Shape(name, mesh, to_world, material, emission or materials.emission(material))
 
 
-def _parts_by_id(document: Scene, placed: list[Instance]) -> dict[str, tuple[Part, ...]]:
-    found: dict[str, tuple[Part, ...]] = {}
+def _parts_of_each(document: Scene, placed: list[Instance], materials: Materials) -> list[tuple[Part, ...]]:
+    """Return the parts of each instance; those of one geometry are the same objects."""
+    found: dict[tuple[str, str], tuple[Part, ...]] = {}
+    parts = []
     for instance in placed:
-        if (id := instance.thing.get("id")) not in found:
+        id, sets = instance.thing.get("id"), _uv_sets(document, instance, materials)
+        if (key := (id, repr(sets))) not in found:
             with at(document.file, document.line_of(instance.thing)):
-                found[id] = geometry_parts(instance.thing)
-    return found
+                found[key] = geometry_parts(instance.thing, sets)
+            materials.values.warnings.extend(left_out(instance.thing))
+        parts.append(found[key])
+    return parts
+
+
+def _uv_sets(document: Scene, instance: Instance, materials: Materials) -> dict[str, int]:
+    if next(instance.link.iter("{*}bind_vertex_input"), None) is None:
+        return {}
+    symbols = [each.get("symbol", "") for each in instance.link.iter("{*}instance_material")]
+    ids = {symbol: _material(document, instance, symbol) for symbol in symbols}
+    return uv_sets(instance.link, {symbol: materials.texcoord(id) for symbol, id in ids.items()})
 
 
 def _material(document: Scene, instance: Instance, symbol: str) -> str:
     """Return the id of a part's material: as bound, or by the symbol itself, as very old files have it."""
-    for bound in instance.link.iter("{*}instance_material"):
-        if bound.get("symbol") == symbol:
-            return document.linked(bound.get("target"), "material").get("id")
+    for each in instance.link.iter("{*}instance_material"):
+        if each.get("symbol") == symbol:
+            return document.linked(each.get("target"), "material").get("id")
     for id in (symbol, f"{symbol}-material"):
-        if symbol and document.element(id) is not None:
+        if symbol and (found := document.element(id)) is not None and local_name(found) == "material":
             return id
-    message = f"the object {instance.name} has no material, give it one in the modeller"
-    raise RecipeError(message, document.file, document.line_of(instance.link))
+    return NO_MATERIAL
 
 
 @lru_cache(maxsize=256)

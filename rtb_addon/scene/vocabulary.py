@@ -20,7 +20,7 @@ class Parameter(NamedTuple):
     Parameters
     ----------
     kind : spectrum, number, text or reference (the id of another material or texture)
-    default : what it is when a recipe does not say; None where a recipe must say
+    default : what it is when a recipe does not say, the name of a file perhaps; None where it must say
     unit : unit of the numbers; of a spectrum's values when kind is spectrum
     """
 
@@ -29,10 +29,12 @@ class Parameter(NamedTuple):
     unit: str = "1"
 
     def default_value(self) -> Spectrum | float | str | None:
-        """Return the default as a renderer gets it, or None."""
-        if self.kind == "spectrum" and self.default is not None:
-            return Spectrum.constant(float(self.default), Unit(self.unit))
-        return self.default
+        """Return the default as a renderer gets it, or None; a file is for Values to read."""
+        if self.kind != "spectrum":
+            return self.default
+        if self.default is None or isinstance(self.default, str):
+            return None
+        return Spectrum.constant(float(self.default), Unit(self.unit))
 
 
 def reflectance(default: float | None = 0.5) -> Parameter:
@@ -52,7 +54,7 @@ def intensity(unit: Unit) -> Parameter:
 
 _INDICES = {"intIOR": number(1.5), "extIOR": number(1.0)}
 _TINTS = {"specularReflectance": reflectance(1.0), "specularTransmittance": reflectance(1.0)}
-_INDEX_SPECTRA = {"eta": reflectance(None), "k": reflectance(None)}
+_INDEX_SPECTRA = {"eta": Parameter("spectrum", "Cu.eta.spd"), "k": Parameter("spectrum", "Cu.k.spd")}
 _WRAPPED = {"materialID": Parameter("reference"), "textureID": Parameter("reference")}
 
 MATERIALS: Mapping[str, Mapping[str, Parameter]] = {

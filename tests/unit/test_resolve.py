@@ -590,7 +590,8 @@ MATTE = "Paint-material:material:matte"
             3,
             "alphaU is 'few', want one number",
         ),
-        (["Paint-material:material:metal"], 2, "Paint-material must say its eta"),
+        (["Paint-material:material:metal"], 2, "there is no spectrum file Cu.eta.spd"),
+        (["Paint-material:material:bumpmap"], 2, "Paint-material must say its materialID"),
         (["Lamp-light:light:pont"], 2, "no light is called pont, want one of point"),
         (
             ["Lampe-light:light:point"],
@@ -638,10 +639,22 @@ def test_a_material_of_nothing_is_said():
     assert "mappings.txt:2: Pant-material is the material of nothing in the scene" in found.warnings
 
 
-def test_an_object_without_material_is_named():
-    text = room().tobytes().decode().replace('material="Paint-material"', "")
-    with pytest.raises(RecipeError, match="the object Wall has no material"):
-        resolved(text.encode())
+def test_an_object_without_material_is_grey_and_said():
+    text = room().tobytes().decode().replace('material="Paint-material"', "").encode()
+    found = resolved(text)
+    assert found.scene.shapes[0].material == "no-material"
+    assert "the object Wall has no material and becomes grey" in found.warnings
+    declared = resolved(text, generic("no-material:material:matte", "no-material:diffuseReflectance = 1"))
+    assert declared.scene.materials["no-material"].parameters["diffuseReflectance"].at(500) == 1
+
+
+def test_a_metal_is_copper_unless_it_says_another(tmp_path):
+    for name in ("Cu.eta.spd", "Cu.k.spd"):
+        (tmp_path / name).write_text("300 0.2\n800 0.3\n")
+    scene = resolved(room(), generic("Paint-material:material:metal"), find_file=in_folder(tmp_path)).scene
+    metal = scene.materials["Paint-material"]
+    assert metal.parameters["eta"].at(550) == pytest.approx(0.25)
+    assert metal.parameters["roughness"] == 0.4
 
 
 @pytest.mark.parametrize("symbol", ["Paint", "Paint-material"])
