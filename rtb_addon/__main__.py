@@ -59,12 +59,14 @@ def _add_render(render: argparse.ArgumentParser) -> None:
     render.add_argument("--jobs", type=_positive, metavar="N", help="workers at once, else one a core")
     render.add_argument("--threads", type=_positive, metavar="N", default=1, help="threads of each worker")
     render.add_argument("--fresh", action="store_true", help="render even what is done")
+    _add_trust(render)
     render.add_argument("--json", action="store_true", help="print a line of JSON for each event")
     render.set_defaults(verb=verbs.render)
 
 
 def _add_check(check: argparse.ArgumentParser) -> None:
     _add_folder(check)
+    _add_trust(check)
     check.add_argument("--json", action="store_true", help="print a line of JSON for each finding")
     check.set_defaults(verb=verbs.check)
 
@@ -114,6 +116,12 @@ def _add_unpack(unpack: argparse.ArgumentParser) -> None:
 def _add_folder(parser: argparse.ArgumentParser) -> None:
     parser.add_argument("folder", type=Path, metavar="FOLDER", help="of the recipe")
     parser.add_argument("--renderer", metavar="NAME", help="instead of the recipe's own")
+
+
+def _add_trust(parser: argparse.ArgumentParser) -> None:
+    parser.add_argument(
+        "--trust", action="store_true", help="run the recipe's own remodeler.py, which is code"
+    )
 
 
 def _names(text: str) -> list[str]:

@@ -41,6 +41,7 @@ class Task:
     overrides : options that win over the recipe's
     threads : processor threads to use
     fresh : whether to render even what is done
+    remodeler : code that changes the scene, which somebody trusts: source, file and line of each part
     """
 
     folder: str
@@ -48,6 +49,7 @@ class Task:
     overrides: dict[str, Any] = field(default_factory=dict)
     threads: int = 1
     fresh: bool = False
+    remodeler: tuple[tuple[str, str, int], ...] = ()
 
     def to_json(self) -> str:
         """Return the task as one line."""
@@ -125,10 +127,13 @@ def _outcome(task: Task, recipes: dict[tuple[str, str], Recipe], desk: Desk) -> 
 def _recipe_of(task: Task, recipes: dict[tuple[str, str], Recipe]) -> Recipe:
     """Return a task's recipe, read once: its scenes stay parsed from condition to condition."""
     from .recipe import Recipe
+    from .recipe.remodeler import Part, Remodeler
 
-    which = task.folder, json.dumps(task.overrides, sort_keys=True)
+    which = task.folder, json.dumps([task.overrides, task.remodeler], sort_keys=True)
     if which not in recipes:
-        recipes[which] = Recipe.load(task.folder).overridden(**task.overrides)
+        parts = tuple(Part(*part) for part in task.remodeler)
+        recipe = Recipe.load(task.folder).overridden(**task.overrides)
+        recipes[which] = replace(recipe, remodeler=Remodeler(parts) if parts else None)
     return recipes[which]
 
 

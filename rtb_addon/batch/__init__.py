@@ -16,6 +16,7 @@ from ..files import sweep
 from ..recipe import CONDITIONS, Recipe
 from ..recipe.locks import locked
 from ..recipe.options import section_words
+from ..recipe.remodeler import Hook, remodeled
 from ..worker import Task
 from . import records
 from .crew import Crew
@@ -35,6 +36,8 @@ def render_recipe(
     jobs: int | None = None,
     threads: int = 1,
     fresh: bool = False,
+    remodelers: Sequence[Hook] = (),
+    trust: bool = False,
     cancelled: Callable[[], bool] = lambda: False,
 ) -> Iterator[Event]:
     """
@@ -47,6 +50,8 @@ def render_recipe(
     jobs : workers at once; None: one a processor core
     threads : processor threads of each worker; with one, results repeat bit for bit
     fresh : render even what is done
+    remodelers : functions before_all, before_condition, after_condition, instead of remodeler.py
+    trust : run the folder's remodeler.py even if the user has not agreed to that yet
     cancelled : asked all the time; once it says yes everything stops within a second
 
     Raises
@@ -56,7 +61,7 @@ def render_recipe(
     """
     width, height = size or (None, None)
     options = {"renderer": renderer, "samples": samples, "width": width, "height": height}
-    recipe = Recipe.load(folder).overridden(**options)
+    recipe = remodeled(Recipe.load(folder).overridden(**options), remodelers, trust)
     chosen = chosen_conditions(recipe, conditions)
     with locked(recipe.folder):
         sweep(recipe.folder)
@@ -121,7 +126,8 @@ def _cached(done: Rendering) -> Event:
 
 
 def _task(recipe: Recipe, condition: Condition, threads: int, fresh: bool) -> Task:
-    return Task(str(recipe.folder), condition.name, dict(recipe.overrides), threads, fresh)
+    parts = recipe.remodeler.parts if recipe.remodeler else ()
+    return Task(str(recipe.folder), condition.name, dict(recipe.overrides), threads, fresh, parts)
 
 
 def processor_cores() -> int:

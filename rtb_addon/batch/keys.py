@@ -23,6 +23,7 @@ from ..recipe import Recipe
 from ..recipe.condition_scene import adjustments_of, renderer_of
 from ..recipe.named_files import texture_names
 from ..recipe.options import section_words
+from ..recipe.remodeler import digest_of
 from ..scene.adjustments import Adjustments
 
 # Raised when the way from a folder to a RenderScene changes what comes out.
@@ -61,13 +62,20 @@ def key_of(recipe: Recipe, condition: Condition) -> Key:
             files[name] = _digest_of(file)
         return file
 
-    adjustments = adjustments_of(recipe, condition, find_file)
+    remodeler = digest_of(recipe)
+    try:
+        adjustments = adjustments_of(recipe, condition, find_file)
+        applied = plain(adjustments, recipe.folder)
+    except RecipeError:
+        if not remodeler:
+            raise
+        # Nothing runs code only to tell a key: what the code makes right counts as it is written.
+        adjustments, applied = Adjustments(), recipe.mappings_of(condition).text
     parent = recipe.parent_file(condition)
     for name in texture_names(parent):
         with suppress(RecipeError):  # whether it is needed is for resolving to say
             find_file(name)
     versions = versions_of(recipe, options.renderer)
-    applied = _plain(adjustments, str(recipe.folder))
     inputs = {
         "engine": ENGINE,
         "parent": _digest_of(parent),
@@ -78,6 +86,8 @@ def key_of(recipe: Recipe, condition: Condition) -> Key:
         "conventions": section_words(recipe.conventions),
         **versions,
     }
+    if remodeler:
+        inputs["remodeler"] = remodeler
     text = json.dumps(inputs, sort_keys=True)
     return Key(hashlib.sha256(text.encode()).hexdigest(), adjustments, versions, files, applied)
 
@@ -91,8 +101,12 @@ def versions_of(recipe: Recipe, name: str) -> dict[str, Any]:
     return {"renderer version": installed.version, "translation": renderer.translation}
 
 
-def _plain(value: Any, folder: str) -> Any:
+def plain(value: Any, folder: Path) -> Any:
     """Return a value as JSON can write it, the same wherever the folder lies."""
+    return _plain(value, str(folder))
+
+
+def _plain(value: Any, folder: str) -> Any:
     if dataclasses.is_dataclass(value) and not isinstance(value, type):
         value = {item.name: getattr(value, item.name) for item in dataclasses.fields(value)}
     elif isinstance(value, tuple) and hasattr(value, "_asdict"):

@@ -34,6 +34,7 @@ def record(
         "unit": UNIT,
         "mappings": key.applied,
         "files": dict(key.files),
+        **({"remodeler": recipe.remodeler.digest} if recipe.remodeler else {}),
         "library version": library_version(),
         **key.versions,
         "seconds": round(seconds, 3),

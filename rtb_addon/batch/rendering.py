@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import os
 import time
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
@@ -13,11 +13,19 @@ from ..conditions import Condition
 from ..errors import RecipeError
 from ..files import temporary_prefix
 from ..recipe import Recipe
-from ..recipe.condition_scene import lacks, remaining_lines, renderer_of, resolve_condition
+from ..recipe.condition_scene import (
+    adjustments_of,
+    lacks,
+    remaining_lines,
+    remodeled_parent,
+    renderer_of,
+    resolve_condition,
+)
+from ..recipe.remodeler import Hook, remodeled
 from ..renderers.interface import RenderOptions, Report
 from ..spectral_image import SpectralImage
 from . import records
-from .keys import Key, key_of
+from .keys import Key, key_of, plain
 
 SCRATCH = ".unfinished"  # where cubes are written before they take their place
 
@@ -47,7 +55,14 @@ class Rendering:
 
 
 def render_condition(
-    recipe: Recipe | Path, name: str, report: Report, *, threads: int = 1, fresh: bool = False
+    recipe: Recipe | Path | str,
+    name: str,
+    report: Report = lambda _: None,
+    *,
+    threads: int = 1,
+    fresh: bool = False,
+    remodelers: Sequence[Hook] = (),
+    trust: bool = False,
 ) -> Rendering:
     """
     Render one condition of a recipe, or find it done; safe to do twice, or in two processes.
@@ -58,13 +73,17 @@ def render_condition(
     report : called between passes with the fraction done; may raise Cancelled
     threads : processor threads to use
     fresh : render even what is done
+    remodelers : functions that change the scene, instead of the folder's remodeler.py
+    trust : run the folder's remodeler.py even if the user has not agreed to that yet
     """
     recipe = recipe if isinstance(recipe, Recipe) else Recipe.load(recipe)
+    recipe = remodeled(recipe, remodelers, trust)
     condition = recipe.conditions[name]
     key = key_of(recipe, condition)
     if not fresh and (done := found(recipe, condition, key)) is not None:
         return done
     began = time.monotonic()
+    key = _as_remodeled(recipe, condition, key)
     resolved = resolve_condition(recipe, condition, key.adjustments)
     options = recipe.options_of(condition)
     if missing := lacks(options.renderer, resolved.scene):
@@ -78,6 +97,15 @@ def render_condition(
     return _saved(
         image, recipe, condition, records.record(recipe, condition, key, resolved.warnings, seconds)
     )
+
+
+def _as_remodeled(recipe: Recipe, condition: Condition, key: Key) -> Key:
+    """Return a key with the mappings as the remodeled parent scene fills them in."""
+    if recipe.remodeler is None:
+        return key
+    parent = remodeled_parent(recipe, condition)
+    adjustments = adjustments_of(recipe, condition, recipe.find_file, parent)
+    return key._replace(adjustments=adjustments, applied=plain(adjustments, recipe.folder))
 
 
 def found(recipe: Recipe, condition: Condition, key: Key) -> Rendering | None:

@@ -7,7 +7,7 @@ from collections.abc import Callable, Hashable, Mapping
 from dataclasses import dataclass, field, replace
 from functools import cached_property
 from pathlib import Path
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 from ..conditions import Condition, Conditions, format_conditions, read_conditions
 from ..errors import RecipeError
@@ -20,6 +20,9 @@ from .options import Conventions, MontageOptions, RecipeOptions
 from .problems import problems
 from .resources import Resources
 from .words import RECIPE
+
+if TYPE_CHECKING:
+    from .remodeler import Remodeler
 
 PARENT, CONDITIONS, MAPPINGS = "parent.dae", "conditions.txt", "mappings.txt"
 JSON_MAPPINGS = "mappings.json"  # RenderToolbox4's, where there is no mappings.txt
@@ -40,6 +43,7 @@ class Recipe:
     provenance : who made it, with what
     words : recipe.json as it was found; keys that nobody knows are kept
     overrides : options that the command line sets
+    remodeler : code that changes its scenes, once somebody trusts it
     """
 
     folder: Path
@@ -50,6 +54,7 @@ class Recipe:
     provenance: Mapping[str, Any] = field(default_factory=dict)
     words: Mapping[str, Any] = field(default_factory=dict, repr=False)
     overrides: Mapping[str, Any] = field(default_factory=dict)
+    remodeler: Remodeler | None = field(default=None, repr=False)
     resources: Resources = field(init=False, repr=False)
     _known: dict[Hashable, Any] = field(default_factory=dict, init=False, repr=False)
 

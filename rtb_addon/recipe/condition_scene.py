@@ -11,6 +11,7 @@ from .. import renderers
 from ..renderers.fidelity import TABLE, unsupported
 from ..renderers.interface import Renderer
 from ..scene.adjustments import Adjustments, NativeLine
+from ..scene.document import Scene
 from ..scene.render_scene import RenderScene
 from ..scene.resolve import Resolved, SceneSettings, resolve
 
@@ -29,17 +30,36 @@ def renderer_of(recipe: Recipe, name: str) -> Renderer:
     return recipe.once(("renderer", name), lambda: renderers.find(name))
 
 
-def adjustments_of(recipe: Recipe, condition: Condition, find_file: FindFile) -> Adjustments:
+def adjustments_of(
+    recipe: Recipe, condition: Condition, find_file: FindFile, parent: Scene | None = None
+) -> Adjustments:
     """Return the mappings that apply to a condition, its values filled in."""
-    renderer, document = recipe.options_of(condition).renderer, recipe.parent_of(condition)
+    renderer, document = recipe.options_of(condition).renderer, parent or recipe.parent_of(condition)
     return recipe.mappings_of(condition).fill_in(condition, renderer, document, find_file)
+
+
+def remodeled_parent(recipe: Recipe, condition: Condition) -> Scene:
+    """Return a condition's parent scene as the remodeler's before_all leaves it."""
+    parent = recipe.parent_of(condition)
+    if (remodeler := recipe.remodeler) is None:
+        return parent
+    return recipe.once(("before_all", parent), lambda: remodeler.changed("before_all", parent, recipe))
 
 
 def resolve_condition(recipe: Recipe, condition: Condition, adjustments: Adjustments) -> Resolved:
     """Return a condition's neutral scene, in the handedness of the recipe."""
     options = recipe.options_of(condition)
     settings = SceneSettings(options.film, options.light_paths, options.camera, recipe.conventions.handedness)
-    return resolve(recipe.parent_of(condition), adjustments, settings, recipe.find_file)
+    return resolve(_document_of(recipe, condition, adjustments), adjustments, settings, recipe.find_file)
+
+
+def _document_of(recipe: Recipe, condition: Condition, adjustments: Adjustments) -> Scene:
+    """Return a condition's document; mappings come between the remodeler's before and after."""
+    parent = remodeled_parent(recipe, condition)
+    if (remodeler := recipe.remodeler) is None:
+        return parent
+    adjusted = remodeler.changed("before_condition", parent, condition).adjusted(adjustments)
+    return remodeler.changed("after_condition", adjusted, condition, adjustments.edits)
 
 
 def lacks(renderer: str, scene: RenderScene) -> list[str]:

@@ -6,8 +6,10 @@ from collections.abc import Iterator
 from pathlib import Path
 from typing import TYPE_CHECKING, NamedTuple
 
+from ..consent import has_consent
 from ..errors import RecipeError
-from .condition_scene import adjustments_of, lacks, renderer_of, resolve_condition
+from .condition_scene import adjustments_of, lacks, remodeled_parent, renderer_of, resolve_condition
+from .remodeler import REMODELER, UNTRUSTED, code_of
 
 if TYPE_CHECKING:
     from ..conditions import Condition
@@ -63,6 +65,7 @@ def _findings(recipe: Recipe) -> Iterator[Finding]:
         yield from _mapping_problems(recipe)
     else:
         yield from (Finding(None, str(remark)) for remark in conditions.remarks)
+    yield from _untrusted(recipe)
     for condition in conditions:
         yield from _condition_findings(recipe, condition)
     yield from (Finding(None, sentence) for sentence in recipe.resources.warnings)
@@ -81,12 +84,22 @@ def _mapping_problems(recipe: Recipe) -> Iterator[Finding]:
         yield Finding(error)
 
 
+def _untrusted(recipe: Recipe) -> Iterator[Finding]:
+    """Find fault with a remodeler that may not run; what its scenes would be then nobody can tell."""
+    if recipe.remodeler is None and (code := code_of(recipe)) is not None and not has_consent(code):
+        yield Finding(RecipeError(UNTRUSTED, REMODELER))
+
+
 def _condition_findings(recipe: Recipe, condition: Condition) -> Iterator[Finding]:
     try:
         name = recipe.options_of(condition).renderer
         if (reason := _missing(recipe, name)) is not None:
             yield Finding(RecipeError(f"the renderer {name} cannot be used here: {reason}"))
-        adjustments = adjustments_of(recipe, condition, recipe.find_file)
+        if recipe.remodeler is None and code_of(recipe) is not None:
+            adjustments_of(recipe, condition, recipe.find_file)
+            return
+        parent = remodeled_parent(recipe, condition)
+        adjustments = adjustments_of(recipe, condition, recipe.find_file, parent)
         resolved = resolve_condition(recipe, condition, adjustments)
     except RecipeError as error:
         yield Finding(error)

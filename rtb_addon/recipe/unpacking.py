@@ -28,7 +28,7 @@ _MOST_DIRECTORY = 16 << 20  # [bytes] of an archive's table of contents
 _CHUNK = 1 << 20  # [bytes]
 # Native scenes are made anew: a renderer would take a mesh that is there for the one it wants.
 _LEFT_OUT = {LOCK, "scenes"}
-_SCENES = {".dae", ".xml"}
+_SCENES = {".dae", ".xml", ".zae"}
 
 
 def unpack_recipe(file: Path | str, folder: Path | str) -> Recipe:

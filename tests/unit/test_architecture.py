@@ -26,6 +26,7 @@ FLOORS = {
     "rtb_addon/conditions.py": 2,
     "rtb_addon/exr.py": 2,
     "rtb_addon/background.py": 1,
+    "rtb_addon/consent.py": 1,
     "rtb_addon/errors.py": 1,
     "rtb_addon/files.py": 1,
     "rtb_addon/processes.py": 1,
