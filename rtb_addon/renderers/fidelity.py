@@ -24,16 +24,22 @@ ABSENT = Fidelity("absent")
 
 # feature ("material matte", "light spot", "camera perspective" ...) -> renderer -> fidelity
 TABLE: Mapping[str, Mapping[str, Fidelity]] = {
-    "material matte": {"mitsuba": EXACT, "tracer": EXACT},
-    "light point": {"mitsuba": EXACT, "tracer": EXACT},
+    "material matte": {"mitsuba": EXACT, "tracer": EXACT, "sphere": EXACT},
+    "material anisoward": {"mitsuba": EXACT, "tracer": EXACT, "sphere": EXACT},
+    "material mirror": {"mitsuba": EXACT, "tracer": EXACT},
+    "material plastic": {"mitsuba": EXACT},
+    "material roughplastic": {"mitsuba": EXACT},
+    "material blend": {"mitsuba": EXACT},
+    "material mask": {"mitsuba": EXACT},
+    "light point": {"mitsuba": EXACT, "tracer": EXACT, "sphere": EXACT},
     "light spot": {"mitsuba": EXACT, "tracer": EXACT},
     "light directional": {"mitsuba": EXACT, "tracer": EXACT},
     "light area": {"mitsuba": EXACT, "tracer": EXACT},
     "light environment": {"mitsuba": EXACT, "tracer": EXACT},
     "camera perspective": {"mitsuba": EXACT, "tracer": EXACT},
-    "camera orthographic": {"mitsuba": EXACT, "tracer": EXACT},
-    "bands averaged": {"mitsuba": EXACT, "tracer": EXACT},
-    "bands centre": {"mitsuba": EXACT, "tracer": EXACT},
+    "camera orthographic": {"mitsuba": EXACT, "tracer": EXACT, "sphere": EXACT},
+    "bands averaged": {"mitsuba": EXACT, "tracer": EXACT, "sphere": EXACT},
+    "bands centre": {"mitsuba": EXACT, "tracer": EXACT, "sphere": EXACT},
 }
 
 

@@ -202,7 +202,7 @@ def test_a_blend_of_two_spectra_is_their_weighted_mean(tmp_path):
     tree.getroot().insert(4, blend)
     tree.write(native)
     image = renderer().render(native, RenderOptions(), lambda fraction: None)
-    first, second = one_hot(read_native(native)).materials["paint"]
+    first, second = (lobe.reflectance for lobe in one_hot(read_native(native)).materials["paint"])
     assert not np.array_equal(first.values, second.values)
     paint = 0.75 * first.in_bands(BANDS) + 0.25 * second.in_bands(BANDS)
     # Blending chooses one of the two at random for the next bounce, and both for light sampling.

@@ -49,7 +49,9 @@ class Native:
         """Return what only our own path renders right, in the words of the file's comments."""
         spots = [node.get("id", "") for node in self.root.iter("emitter") if node.get("type") == "spot"]
         suns = [name[: -len("_angle")] for name in self.defaults if name.endswith("_angle")]
+        blends = [node.get("id", "") for node in self.root.iter("bsdf") if node.get("type") == "blendbsdf"]
         said = [f"the edge of the spot {name}" for name in spots] + [f"the disc of {name}" for name in suns]
+        said += [f"the blend {name}" for name in blends]
         return said + (["pixels that are not square"] if self.pixel_stretch != 1 else [])
 
 

@@ -1,9 +1,8 @@
 """
 A native scene made ready for the lobe path: colours become one-hot, spectra move into tables.
 
-A spectrum of a material becomes the colour (1, 0, 0), its second (0, 1, 0), its third (0, 0, 1): what Mitsuba
-then computes are the coefficients of these spectra, the same for every band and exactly linear. Spectra of
-emitters become (1, 0, 0). No spectrum is left in the scene that Mitsuba loads.
+What becomes of materials stands in lobes.py; the spectrum of an emitter becomes the colour (1, 0, 0). No
+spectrum is left in the scene that Mitsuba loads.
 """
 
 from __future__ import annotations
@@ -18,12 +17,9 @@ import numpy as np
 from ...errors import RenderingError
 from ...spectra import FloatArray, Spectrum
 from .lights_xml import ball
+from .lobes import Lobe, one_hot_colour, take_lobes
 from .native import Native
 from .spectrum_xml import element, parse_spectrum, properties
-
-# Materials that are exactly linear in their spectra, which is what makes the lobe path exact.
-_LINEAR = {"diffuse", "twosided", "blendbsdf"}
-MOST_LOBES = 3
 
 
 @dataclass(frozen=True, eq=False)
@@ -54,18 +50,18 @@ class OneHotScene:
     Parameters
     ----------
     xml : a scene for Mitsuba's rgb variants without any spectrum
-    materials : id of a material -> its spectra, one a lobe
+    materials : id of a material -> its lobes
     emitters : id of an emitter -> its row
     """
 
     xml: str
-    materials: dict[str, list[Spectrum]]
+    materials: dict[str, list[Lobe]]
     emitters: dict[str, Emitter]
 
     @property
     def lobes(self) -> int:
-        """Most spectra that a material has."""
-        return max((len(spectra) for spectra in self.materials.values()), default=1)
+        """Most lobes that a material has."""
+        return max((len(lobes) for lobes in self.materials.values()), default=1)
 
 
 def one_hot(native: Native) -> OneHotScene:
@@ -76,7 +72,7 @@ def one_hot(native: Native) -> OneHotScene:
     _swap_film(root, native)
     _make_files_absolute(root, native)
     beams = _swap_spots(root, native)
-    materials = {_id(node): _take_lobes(node) for node in root.iter("bsdf") if node.get("id")}
+    materials = take_lobes(root)
     emitters = {_id(node): _take_emitter(node, native, beams) for node in root.iter("emitter")}
     return OneHotScene(Xml.tostring(root, encoding="unicode"), materials, emitters)
 
@@ -131,46 +127,24 @@ def _round_out(root: Xml.Element, spot: Xml.Element, centre: FloatArray, radius:
     root.append(ball(_id(spot), centre, radius, radiance))
 
 
-def _take_lobes(material: Xml.Element) -> list[Spectrum]:
-    for node in material.iter("bsdf"):
-        if node.get("type") not in _LINEAR:
-            raise RenderingError(f"the native scene's {_id(material)} is a {node.get('type')}, make it matte")
-    spectra = _take_spectra(material)
-    if not 1 <= len(spectra) <= MOST_LOBES:
-        raise RenderingError(
-            f"the native scene's {_id(material)} has {len(spectra)} spectra, give it 1 to {MOST_LOBES}"
-        )
-    return spectra
-
-
 def _take_emitter(node: Xml.Element, native: Native, beams: dict[str, dict]) -> Emitter:
-    spectra, place = _take_spectra(node), _id(node)
-    if len(spectra) != 1:
-        raise RenderingError(f"the native scene's {place} has {len(spectra)} spectra, give it one")
+    place, spectrum = _id(node), _take_spectrum(node)
     angle = math.radians(float(native.defaults.get(f"{place}_angle", 0.0)))
     if not angle:
-        return Emitter(spectra[0], **beams.get(place, {}))
+        return Emitter(spectrum, **beams.get(place, {}))
     # 1 - cos, without the loss of digits that a small disc would suffer.
-    return Emitter(spectra[0], _direction(node), narrowness=2 * math.sin(angle / 4) ** 2)
+    return Emitter(spectrum, _direction(node), narrowness=2 * math.sin(angle / 4) ** 2)
 
 
-def _take_spectra(node: Xml.Element) -> list[Spectrum]:
-    """Replace each spectrum in an element by a one-hot colour, and return them in order."""
-    taken = []
-    for parent in list(node.iter()):
-        for index, child in enumerate(list(parent)):
-            if child.tag == "rgb" or (child.tag == "spectrum" and not child.get("type")):
-                raise RenderingError(f"the native scene's {_id(node)} has a colour, write a regular spectrum")
-            if child.tag == "spectrum":
-                parent[index] = _colour(child.get("name", ""), len(taken) % MOST_LOBES)
-                taken.append(parse_spectrum(child))
-    return taken
-
-
-def _colour(name: str, lobe: int) -> Xml.Element:
-    node = element("spectrum", "rawconstant", name=name)
-    Xml.SubElement(node, "vector", name="value", value=", ".join("1" if k == lobe else "0" for k in range(3)))
-    return node
+def _take_spectrum(emitter: Xml.Element) -> Spectrum:
+    """Replace an emitter's spectrum by a one-hot colour, and return it."""
+    if emitter.find("rgb") is not None or any(not node.get("type") for node in emitter.findall("spectrum")):
+        raise RenderingError(f"the native scene's {_id(emitter)} has a colour, write a regular spectrum")
+    spectra = emitter.findall("spectrum")
+    if len(spectra) != 1:
+        raise RenderingError(f"the native scene's {_id(emitter)} has {len(spectra)} spectra, give it one")
+    emitter[list(emitter).index(spectra[0])] = one_hot_colour(spectra[0].get("name", ""), 0)
+    return parse_spectrum(spectra[0])
 
 
 def _matrix(node: Xml.Element) -> FloatArray:

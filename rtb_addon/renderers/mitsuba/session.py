@@ -5,16 +5,19 @@ from __future__ import annotations
 import sys
 from types import ModuleType
 
+from .plugins import register
+
 FAST, SLOW = "llvm_ad_rgb", "scalar_spectral"
 
 
 def start(variant: str, threads: int) -> ModuleType:
-    """Return the mitsuba module, ready for a variant; its messages go to stderr, never to stdout."""
+    """Return mitsuba, ready for a variant with our plugins; its messages go to stderr, never to stdout."""
     import drjit as dr
     import mitsuba as mi
 
     if mi.variant() != variant:
         mi.set_variant(variant)
+    register(mi)
     _send_messages_to_stderr(mi)
     dr.set_thread_count(threads)
     return mi

@@ -29,7 +29,7 @@ class Tables:
     Attributes
     ----------
     padded_bands : number of bands, rounded up to whole packets; the rest are zero
-    lobes : spectra per material
+    lobes : most spectra that a material has
     beams : whether some emitter is a spot
     suns : number of emitters that are discs in the sky
     """
@@ -54,8 +54,8 @@ class Tables:
 
         black = np.zeros(self.padded_bands)
         rows = [
-            [in_bands(spectra[k]) if k < len(spectra) else black for k in range(self.lobes)]
-            for spectra in source.materials.values()
+            [in_bands(lobes[k].reflectance) if k < len(lobes) else black for k in range(self.lobes)]
+            for lobes in source.materials.values()
         ]
         # Light sampling aims anywhere in a disc: irradiance becomes radiance times solid angle.
         gains = [2 / (2 - emitter.narrowness) for emitter in emitters]

@@ -16,13 +16,13 @@ import numpy as np
 
 from ...errors import RecipeError
 from ...files import write_bytes
-from ...scene.render_scene import Film, Integrator, Material, Mesh, RenderScene, Shape
-from ...spectra import Spectrum
+from ...scene.render_scene import Film, Integrator, Mesh, RenderScene, Shape
 from ..interface import Extras
 from ..native_lines import integrator_with
 from ..ply import write_mesh
 from .camera_xml import matrix, sensor
 from .lights_xml import BLACK, environment, light
+from .materials_xml import materials
 from .names import Names
 from .spectrum_xml import element, format_spectrum, range_for, regular
 
@@ -53,8 +53,7 @@ def scene_xml(scene: RenderScene, integrator: Integrator, folder: Path) -> Xml.E
     root.append(_integrator(integrator))
     root.append(_black(names))
     root.extend(sensor(scene.camera, scene.film, _sampler(integrator), _film(scene.film), names))
-    for material in scene.materials.values():
-        root.append(_material(material, names, span))
+    root.extend(materials(scene.materials, names, span))
     for shape in scene.shapes:
         if len(shape.mesh.triangles):
             root.append(_shape(shape, folder, names, span))
@@ -107,21 +106,6 @@ def _black(names: Names) -> Xml.Element:
     node = element("bsdf", "diffuse", id=names.of("material", BLACK))
     node.append(element("spectrum", "uniform", name="reflectance", value=0.0))
     return node
-
-
-def _material(material: Material, names: Names, span: tuple[float, float]) -> Xml.Element:
-    if material.model != "matte":
-        raise RecipeError(f"Mitsuba renders no {material.model} yet, make material {material.id} matte")
-    reflectance = material.parameters["diffuseReflectance"]
-    if not isinstance(reflectance, Spectrum):
-        raise RecipeError(f"Mitsuba renders no textures yet, give material {material.id} a spectrum")
-    if reflectance.values.min() < 0:
-        raise RecipeError(f"material {material.id} has a negative reflectance, give 0 or more")
-    both = element("bsdf", "twosided", id=names.of("material", material.id))
-    inner = element("bsdf", "diffuse")
-    inner.append(format_spectrum("reflectance", reflectance, span))
-    both.append(inner)
-    return both
 
 
 def _shape(shape: Shape, folder: Path, names: Names, span: tuple[float, float]) -> Xml.Element:

@@ -1,0 +1,144 @@
+"""
+The spectra of materials, taken out of a native scene: what is left are one-hot colours.
+
+A material's first spectrum becomes the colour (1, 0, 0), its second (0, 1, 0), its third (0, 0, 1): what
+Mitsuba then computes are the coefficients of these spectra, its lobes, the same for every band and exactly
+linear. Spectra that are the same share a lobe.
+"""
+
+from __future__ import annotations
+
+import copy
+from collections.abc import Iterator, Mapping
+from dataclasses import dataclass
+from xml.etree import ElementTree as Xml
+
+from ...errors import RenderingError
+from ...spectra import Spectrum
+from .spectrum_xml import element, parse_spectrum
+
+MOST_LOBES = 3
+# Materials that are exactly linear in their spectra, which is what makes the lobe path exact, and the spectra
+# that they have whether a scene names them or not.
+_LINEAR: Mapping[str, Mapping[str, float]] = {
+    "diffuse": {"reflectance": 0.5},
+    "ward": {"diffuse_reflectance": 0.5, "specular_reflectance": 0.2},
+    "conductor": {"specular_reflectance": 1.0},
+    "plastic": {"diffuse_reflectance": 0.5, "specular_reflectance": 1.0},
+    "roughplastic": {"diffuse_reflectance": 0.5, "specular_reflectance": 1.0},
+    "twosided": {},
+    "blendbsdf": {},
+    "mask": {},
+}
+
+
+@dataclass(frozen=True, eq=False)
+class Lobe:
+    """
+    What multiplies one of a material's coefficients, band by band.
+
+    Parameters
+    ----------
+    reflectance : the spectrum
+    """
+
+    reflectance: Spectrum
+
+
+def take_lobes(root: Xml.Element) -> dict[str, list[Lobe]]:
+    """Replace the spectra of all materials in a scene by one-hot colours; return their lobes by material."""
+    named = {node.get("id", ""): node for node in root.iter("bsdf") if node.get("id")}
+    for node in named.values():
+        _expand(node, named, (node.get("id", ""),))
+    return {id: _take(id, node) for id, node in named.items()}
+
+
+def _expand(node: Xml.Element, named: Mapping[str, Xml.Element], above: tuple[str, ...]) -> None:
+    """Put copies in the place of references: a spectrum is not the same lobe in every material."""
+    for index, child in enumerate(list(node)):
+        inside = above
+        if child.tag == "ref" and (id := child.get("id", "")) in named:
+            if id in above:
+                raise RenderingError(f"the native scene's {id} refers to itself, give it another material")
+            node[index] = child = copy.deepcopy(named[id])
+            del child.attrib["id"]
+            inside = (*above, id)
+        if child.tag == "bsdf":
+            _expand(child, named, inside)
+
+
+def _take(id: str, material: Xml.Element) -> list[Lobe]:
+    for node in list(material.iter("bsdf")):
+        _complete(id, node)
+        if node.get("type") == "mask":
+            _open(node)
+        if node.get("type") == "blendbsdf":
+            _name_parts(node)
+    found: dict[bytes, Lobe] = {}
+    places = []
+    for parent, index, child in _spectra(id, material):
+        key = _content(child)
+        found.setdefault(key, Lobe(parse_spectrum(child)))
+        places.append((parent, index, child.get("name", ""), key))
+    if not 1 <= len(found) <= MOST_LOBES:
+        raise RenderingError(f"the native scene's {id} has {len(found)} spectra, give it 1 to {MOST_LOBES}")
+    order = list(found)
+    for parent, index, name, key in places:
+        parent[index] = one_hot_colour(name, order.index(key))
+    return [found[key] for key in order]
+
+
+def _complete(id: str, node: Xml.Element) -> None:
+    """Refuse what is not linear, and write out the spectra that Mitsuba would fill in as white or grey."""
+    kind = node.get("type", "")
+    if kind not in _LINEAR:
+        raise RenderingError(f"the native scene's {id} is a {kind}, make it one of {', '.join(_LINEAR)}")
+    there = {child.get("name") for child in node}
+    for name, value in _LINEAR[kind].items():
+        if name not in there:
+            node.append(element("spectrum", "uniform", name=name, value=value))
+
+
+def _open(mask: Xml.Element) -> None:
+    """
+    Turn a mask into a blend with nothing.
+
+    What a mask lets through has all colours at once, which no lobe has; glass that does not refract has one.
+    """
+    mask.set("type", "blendbsdf")
+    for child in mask:
+        if child.get("name") == "opacity":
+            child.set("name", "weight")
+    nothing = element("bsdf", "thindielectric", int_ior=1.0, ext_ior=1.0)
+    for name in ("specular_reflectance", "specular_transmittance"):
+        nothing.append(element("spectrum", "uniform", name=name, value=1.0))
+    inner = next(index for index, child in enumerate(mask) if child.tag == "bsdf")
+    mask.insert(inner, nothing)
+
+
+def _name_parts(blend: Xml.Element) -> None:
+    """Make a blend one of our plugin, which has mirrors right (see blend.py)."""
+    blend.set("type", "fairblend")
+    for child, name in zip(blend.findall("bsdf"), ("first", "second"), strict=True):
+        child.set("name", name)
+
+
+def _spectra(id: str, material: Xml.Element) -> Iterator[tuple[Xml.Element, int, Xml.Element]]:
+    for parent in list(material.iter()):
+        for index, child in enumerate(list(parent)):
+            if child.tag == "rgb" or (child.tag == "spectrum" and not child.get("type")):
+                raise RenderingError(f"the native scene's {id} has a colour, write a regular spectrum")
+            if child.tag == "spectrum":
+                yield parent, index, child
+
+
+def _content(spectrum: Xml.Element) -> bytes:
+    """Return what tells a spectrum from others, its name and the layout of the file aside."""
+    return repr([spectrum.get("type"), *(sorted(child.items()) for child in spectrum)]).encode()
+
+
+def one_hot_colour(name: str, lobe: int) -> Xml.Element:
+    """Return the colour that stands for a lobe."""
+    node = element("spectrum", "rawconstant", name=name)
+    Xml.SubElement(node, "vector", name="value", value=", ".join("1" if k == lobe else "0" for k in range(3)))
+    return node

@@ -1,0 +1,136 @@
+"""Materials as Mitsuba's BSDFs: opaque ones reflect on both sides, others stand for themselves."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterator, Mapping
+from typing import Any
+from xml.etree import ElementTree as Xml
+
+from ...errors import RecipeError
+from ...scene.render_scene import Material
+from ...spectra import Spectrum
+from .names import Names
+from .spectrum_xml import comment, element, format_spectrum
+from .ward import VARIANTS
+
+Span = tuple[float, float]
+# What other materials a material is made of, in the order in which Mitsuba wants them.
+_PARTS = {"blend": ("materialID", "otherMaterialID"), "mask": ("materialID",)}
+_WHITE = Spectrum.constant(1.0)
+_BLENDED = "{} is shown too dark by stock Mitsuba 3.9 where it blends a mirror with something that is none"
+_REMARKS = {"anisoward": "{} needs a plugin of ours, rtb_addon.renderers.mitsuba.plugins registers it"}
+
+
+def materials(declared: Mapping[str, Material], names: Names, span: Span) -> list[Xml.Element]:
+    """Return every material of a scene, each after those that it is made of."""
+    for id in declared:
+        names.of("material", id)
+    return [node for one in _in_order(declared) for node in _material(one, names, span)]
+
+
+def _in_order(declared: Mapping[str, Material]) -> Iterator[Material]:
+    done: set[str] = set()
+
+    def visit(id: str, above: tuple[str, ...]) -> Iterator[Material]:
+        if id in above:
+            raise RecipeError(f"material {id} is made of itself, give {above[-1]} another material")
+        if id in done or id not in declared:
+            return
+        for part in _PARTS.get(declared[id].model, ()):
+            yield from visit(str(declared[id].parameters[part]), (*above, id))
+        done.add(id)
+        yield declared[id]
+
+    for id in declared:
+        yield from visit(id, ())
+
+
+def _material(one: Material, names: Names, span: Span) -> list[Xml.Element]:
+    place = names.known("material", one.id, "the scene")
+    if one.model in _PARTS:
+        return _composed(one, place, names)
+    make = _SURFACES.get(one.model)
+    if make is None:
+        known = ", ".join([*_SURFACES, *_PARTS])
+        raise RecipeError(f"Mitsuba renders no {one.model} yet, make material {one.id} one of {known}")
+    inner = make(one, span)
+    both = element("bsdf", "twosided", id=place)
+    both.append(inner)
+    said = [comment(_REMARKS[one.model].format(place))] if one.model in _REMARKS else []
+    return [*said, both]
+
+
+def _composed(one: Material, place: str, names: Names) -> list[Xml.Element]:
+    """Return a material that is made of others."""
+    if one.model == "blend":
+        node = element("bsdf", "blendbsdf", id=place, weight=number(one, "weight", 0, 1))
+    else:
+        node = element("bsdf", "mask", id=place, opacity=number(one, "opacity", 0, 1))
+    for part in _PARTS[one.model]:
+        known = names.known("material", str(one.parameters[part]), f"material {one.id}")
+        node.append(Xml.Element("ref", id=known))
+    return [comment(_BLENDED.format(place)), node] if one.model == "blend" else [node]
+
+
+def _matte(one: Material, span: Span) -> Xml.Element:
+    node = element("bsdf", "diffuse")
+    node.append(_colour(one, "diffuseReflectance", "reflectance", span))
+    return node
+
+
+def _mirror(one: Material, span: Span) -> Xml.Element:
+    node = element("bsdf", "conductor", material="none")
+    node.append(_colour(one, "specularReflectance", "specular_reflectance", span))
+    return node
+
+
+def _plastic(one: Material, span: Span) -> Xml.Element:
+    # A rough surface without roughness is a smooth one, which Mitsuba has another plugin for.
+    alpha = number(one, "roughness", 0, 10) if one.model == "roughplastic" else 0.0
+    rough: dict[str, Any] = {"distribution": "beckmann", "alpha": alpha} if alpha else {}
+    node = element("bsdf", "roughplastic" if alpha else "plastic", **_indices(one), nonlinear=False, **rough)
+    node.append(_colour(one, "diffuseReflectance", "diffuse_reflectance", span))
+    node.append(format_spectrum("specular_reflectance", _WHITE, span))
+    return node
+
+
+def _ward(one: Material, span: Span) -> Xml.Element:
+    variant = one.parameters["variant"]
+    if variant not in VARIANTS:
+        raise RecipeError(f"material {one.id} is of variant {variant}, want one of {', '.join(VARIANTS)}")
+    widths: dict[str, Any] = {f"alpha_{x.lower()}": number(one, f"alpha{x}", 1e-3, 10) for x in "UV"}
+    node = element("bsdf", "ward", variant=variant, **widths)
+    node.append(_colour(one, "diffuseReflectance", "diffuse_reflectance", span))
+    node.append(_colour(one, "specularReflectance", "specular_reflectance", span))
+    return node
+
+
+_SURFACES = {
+    "matte": _matte,
+    "anisoward": _ward,
+    "mirror": _mirror,
+    "plastic": _plastic,
+    "roughplastic": _plastic,
+}
+
+
+def number(one: Material, name: str, low: float, high: float) -> float:
+    """Return a number of a material that must lie in a range."""
+    value = one.parameters[name]
+    if not isinstance(value, int | float) or not math.isfinite(value) or not low <= value <= high:
+        raise RecipeError(f"material {one.id} has {value} as its {name}, give a number from {low} to {high}")
+    return float(value)
+
+
+def _indices(one: Material) -> dict[str, Any]:
+    return {"int_ior": number(one, "intIOR", 0.1, 10), "ext_ior": number(one, "extIOR", 0.1, 10)}
+
+
+def _colour(one: Material, name: str, mitsubas: str, span: Span) -> Xml.Element:
+    value = one.parameters[name]
+    if not isinstance(value, Spectrum):
+        raise RecipeError(f"Mitsuba renders no textures yet, give material {one.id} a spectrum")
+    if value.values.min() < 0:
+        raise RecipeError(f"material {one.id} has a negative reflectance, give 0 or more")
+    return format_spectrum(mitsubas, value, span)

@@ -1,0 +1,65 @@
+"""A row of balls, one of each material, on a floor under a lamp: what every renderer must show alike."""
+
+import numpy as np
+
+from rtb_addon.scene.render_scene import Camera, Film, Integrator, Material, RenderScene, Shape
+from rtb_addon.spectra import Bands, Spectrum
+from tests.renderings.mitsuba_scenes import FULL_TURN, INTENSITY, at, globe, lamp, square
+
+# Off the samples of the spectra, where the straight lines between them bend.
+BANDS = Bands.around([430.0, 515.0, 585.0, 665.0])
+RED = Spectrum.of([400, 550, 620, 700], [0.05, 0.1, 0.7, 0.9])
+BLUE = Spectrum.of([400, 480, 560, 700], [0.9, 0.6, 0.15, 0.05])
+GREEN = Spectrum.of([400, 530, 700], [0.1, 0.8, 0.2])
+PALE = Spectrum.of([400, 700], [0.6, 0.9])
+PIXELS = 8
+_INDICES = {"intIOR": 1.5, "extIOR": 1.0}
+
+MATERIALS = {
+    "matte": {"diffuseReflectance": RED},
+    "anisoward": {
+        "diffuseReflectance": RED.scaled(0.5),
+        "specularReflectance": BLUE.scaled(0.5),
+        "alphaU": 0.3,
+        "alphaV": 0.15,
+        "variant": "ward",
+    },
+    "mirror": {"specularReflectance": PALE},
+    "plastic": {**_INDICES, "diffuseReflectance": BLUE},
+    "roughplastic": {**_INDICES, "diffuseReflectance": GREEN, "roughness": 0.2},
+    "blend": {"materialID": "matte", "otherMaterialID": "roughplastic", "weight": 0.3},
+    "mask": {"materialID": "plastic", "opacity": 0.6},
+}
+LAMPS = ("point", "area", "environment")
+
+
+def row(light="environment", names=tuple(MATERIALS), materials=None, **integrator):
+    """
+    Return the balls of some materials side by side, 8 x 8 pixels each, under a kind of lamp.
+
+    The order of names is that of the picture.
+    """
+    materials = MATERIALS if materials is None else materials
+    balls = [Shape(name, globe(0.42), at(k + 0.5, 0.5, 0.5), name) for k, name in enumerate(names)]
+    floor = Shape("floor", square(60), np.eye(4), "floor")
+    panel = Shape("panel", square(1.5), at(len(names) / 2, -2, 4, FULL_TURN), "soot", INTENSITY)
+    sky = lamp("environment", filename="", intensity=INTENSITY)
+    point = lamp("point", at(len(names) / 2, -2, 4), INTENSITY.scaled(20), radius=0.0)
+    declared = {name: Material(name, name, parameters) for name, parameters in materials.items()}
+    for name, spectrum in (("floor", PALE), ("soot", Spectrum.constant(0.0))):
+        declared[name] = Material(name, "matte", {"diffuseReflectance": spectrum})
+    return RenderScene(
+        camera=Camera("Camera", "orthographic", at(0, 0, 9), (0, len(names), 0, 1)),
+        shapes=(*balls, floor, *([panel] if light == "area" else [])),
+        materials=declared,
+        lights=(point,) if light == "point" else (),
+        environment=sky if light == "environment" else None,
+        integrator=Integrator(**{"depth": 5, "samples": 256, **integrator}),
+        film=Film(PIXELS * len(names), PIXELS, BANDS, "centre"),
+    )
+
+
+def of(radiance, name, names=tuple(MATERIALS)):
+    """Return one material's part of a picture."""
+    first = names.index(name) * PIXELS
+    return radiance[:, first : first + PIXELS]

@@ -1,0 +1,237 @@
+"""Mitsuba's materials: closed forms, no energy from nothing, and the stock film's picture of each."""
+
+from dataclasses import replace
+from functools import cache
+
+import numpy as np
+import pytest
+
+from rtb_addon.renderers.interface import RenderOptions
+from rtb_addon.renderers.mitsuba import llvm, renderer, session
+from rtb_addon.renderers.mitsuba.ward import VARIANTS
+from rtb_addon.scene.render_scene import Material
+from rtb_addon.spectra import Spectrum
+from tests.renderings.materials_scene import LAMPS, MATERIALS, of, row
+from tests.renderings.mitsuba_scenes import (
+    BANDS,
+    INTENSITY,
+    REFLECTANCE,
+    assert_within_noise,
+    lamp,
+    picture,
+    scene,
+)
+from tests.renderings.noise import CHANCE, error_of_mean, in_blocks, least_probability
+
+SKY = lamp("environment", filename="")
+SHINING = INTENSITY.in_bands(BANDS)
+PAINTED = REFLECTANCE.in_bands(BANDS)
+WHITE = Spectrum.constant(1.0)
+AIR = {"intIOR": 1.5, "extIOR": 1.0}
+
+
+@pytest.fixture(scope="module")
+def both(tmp_path_factory):
+    """Return a function that gives our pictures of the row under a lamp, and stock Mitsuba's, by seed."""
+    folder = tmp_path_factory.mktemp("materials")
+
+    @cache
+    def render(light):
+        native = renderer().translate(row(light), (), folder, light)
+        ours = [rendered(native, seed) for seed in range(6)]
+        mi = session.start("llvm_ad_spectral", 1)
+        loaded = mi.load_file(str(native))
+        theirs = [np.array(mi.render(loaded, spp=256, seed=seed)) for seed in range(100, 116)]
+        return np.stack(ours), np.stack(theirs)
+
+    return render
+
+
+def rendered(native, seed):
+    text = native.read_text()
+    other = native.with_name(f"{native.stem}-{seed}.xml")
+    other.write_text(text.replace('name="seed" value="0"', f'name="seed" value="{seed}"'))
+    return renderer().render(other, RenderOptions(), lambda fraction: None).radiance
+
+
+@pytest.mark.parametrize("light", LAMPS)
+@pytest.mark.parametrize("name", MATERIALS)
+def test_a_material_is_what_stock_mitsubas_spectral_film_shows(both, name, light):
+    ours, theirs = (np.stack([in_blocks(of(image, name), 4) for image in images]) for images in both(light))
+    assert least_probability(ours, theirs) > CHANCE
+    # What could differ unseen: a few errors of the mean of the stock film, whose colours are noisy.
+    assert (error_of_mean(ours)[-1] < 0.02).all()
+    assert (error_of_mean(theirs)[-1] < 0.03).all()
+
+
+def white(model, parameters):
+    # Ward's two reflectances share the light.
+    spectrum = WHITE.scaled(0.5) if model == "anisoward" else WHITE
+    return {name: spectrum if isinstance(value, Spectrum) else value for name, value in parameters.items()}
+
+
+def test_no_material_gives_more_light_than_it_gets(tmp_path):
+    whitened = {name: white(name, parameters) for name, parameters in MATERIALS.items()}
+    one = row(materials=whitened, depth=40, samples=512)
+    even = lamp("environment", filename="", intensity=WHITE)
+    floor = {"floor": Material("floor", "matte", {"diffuseReflectance": WHITE})}
+    one = replace(one, environment=even, materials={**one.materials, **floor})
+    image = picture(one, tmp_path).radiance
+    for name in MATERIALS:
+        blocks = in_blocks(of(image, name), 8)
+        # What facets or the smooth normals of a coarse ball send downwards is lost.
+        assert 0.8 < blocks.min() <= blocks.max() < 1.005, name
+
+
+def of_paint(model, **parameters):
+    """Return a floor of a material, seen from above under an even sky."""
+    one = scene(environment=SKY, samples=1024, depth=4)
+    made = {"paint": Material("paint", model, parameters)}
+    return replace(one, materials={**one.materials, **made})
+
+
+def test_a_mirror_shows_the_sky_times_its_reflectance(tmp_path):
+    image = picture(of_paint("mirror", specularReflectance=REFLECTANCE), tmp_path)
+    np.testing.assert_allclose(image.radiance[0, 0], PAINTED * SHINING, rtol=1e-5)
+
+
+@pytest.mark.parametrize("index", [1.2, 1.5, 2.0])
+def test_smooth_plastic_is_paint_below_a_fresnel_reflection(tmp_path, index):
+    image = picture(of_paint("plastic", intIOR=index, extIOR=1.0, diffuseReflectance=REFLECTANCE), tmp_path)
+    fresnel = ((index - 1) / (index + 1)) ** 2
+    # Mitsuba takes the mean reflection from inside from a fit that is good to a thousandth.
+    assert_within_noise(image, (fresnel + (1 - fresnel) * PAINTED) * SHINING, floor=3e-3)
+
+
+def test_plastic_without_roughness_is_smooth(tmp_path):
+    rough = of_paint("roughplastic", **AIR, roughness=0.0, diffuseReflectance=REFLECTANCE)
+    smooth = of_paint("plastic", **AIR, diffuseReflectance=REFLECTANCE)
+    first, second = (picture(one, tmp_path).radiance for one in (rough, smooth))
+    assert np.array_equal(first, second)
+
+
+def made_of(model, **parameters):
+    """Return a floor that is made of a mirror and of soot."""
+    one = of_paint(model, **parameters)
+    glossy = Material("glossy", "mirror", {"specularReflectance": REFLECTANCE})
+    return replace(one, materials={**one.materials, "glossy": glossy})
+
+
+@pytest.mark.parametrize("weight", [0.0, 0.25, 1.0])
+def test_a_blend_shows_so_much_of_the_other_material(tmp_path, weight):
+    one = made_of("blend", materialID="soot", otherMaterialID="glossy", weight=weight)
+    image = picture(one, tmp_path)
+    if weight:
+        assert_within_noise(image, weight * PAINTED * SHINING)
+    else:
+        assert not image.radiance.any()
+
+
+@pytest.mark.parametrize("opacity", [0.0, 0.25, 1.0])
+def test_what_a_mask_does_not_cover_shows_what_lies_behind(tmp_path, opacity):
+    image = picture(made_of("mask", materialID="glossy", opacity=opacity), tmp_path)
+    # Behind the floor is the other half of the same sky.
+    expected = (opacity * PAINTED + 1 - opacity) * SHINING
+    assert_within_noise(image, expected)
+
+
+@pytest.fixture
+def fast():
+    """Mitsuba as the lobe path uses it."""
+    llvm.prepare()
+    return session.start(session.FAST, 1)
+
+
+WIDTHS = [(0.1, 0.1), (0.15, 0.5), (0.6, 0.3)]
+
+
+@pytest.mark.parametrize("variant", VARIANTS)
+def test_wards_samples_are_distributed_as_it_says(fast, variant):
+    for (u, v), degrees in zip(WIDTHS, [0, 35, 65], strict=True):
+        angle = np.radians(degrees)
+        ball = fast.chi2.SphericalDomain()
+        grey = 'type="rawconstant"><float name="value" value="0.5"/></spectrum>'
+        text = f"""<string name="variant" value="{variant}"/>
+            <float name="alpha_u" value="{u}"/><float name="alpha_v" value="{v}"/>
+            <spectrum name="diffuse_reflectance" {grey}
+            <spectrum name="specular_reflectance" {grey}
+        """
+        wi = fast.Vector3f(
+            *(np.array([0.8, 0.6, 1]) * [np.sin(angle), np.sin(angle), np.cos(angle)]).tolist()
+        )
+        draw, density = fast.chi2.BSDFAdapter("ward", text, wi=wi)
+        test = fast.chi2.ChiSquareTest(ball, draw, density, sample_dim=3, sample_count=200_000, res=101)
+        assert test.run(), (variant, u, v, degrees)
+
+
+def ward(mi, variant, diffuse, specular, u, v):
+    def colour(value):
+        return {"type": "rawconstant", "value": value}
+
+    return mi.load_dict(
+        {
+            "type": "ward",
+            "variant": variant,
+            "alpha_u": u,
+            "alpha_v": v,
+            "diffuse_reflectance": colour(diffuse),
+            "specular_reflectance": colour(specular),
+        }
+    )
+
+
+@pytest.mark.parametrize("variant", VARIANTS)
+def test_ward_is_what_was_published(fast, variant):
+    import drjit as dr
+
+    u, v = 0.2, 0.45
+    wi, wo = (np.array(w) / np.linalg.norm(w) for w in ([0.3, -0.2, 0.8], [-0.1, 0.5, 0.6]))
+    si = dr.zeros(fast.SurfaceInteraction3f)
+    si.wi = fast.Vector3f(*map(float, wi))
+    value = ward(fast, variant, 0.3, 0.6, u, v).eval(fast.BSDFContext(), si, fast.Vector3f(*map(float, wo)))
+    h = (wi + wo) / np.linalg.norm(wi + wo)
+    polar, azimuth = np.arccos(h[2]), np.arctan2(h[1], h[0])
+    peak = np.exp(-(np.tan(polar) ** 2) * ((np.cos(azimuth) / u) ** 2 + (np.sin(azimuth) / v) ** 2))
+    height = {
+        "ward": 1 / np.sqrt(wi[2] * wo[2]),
+        "ward-duer": 1 / (wi[2] * wo[2]),
+        "balanced": 2 * (1 + wi @ wo) / (np.cos(polar) * np.linalg.norm(wi + wo)) ** 4 * 4,
+    }[variant]
+    expected = (0.3 / np.pi + 0.6 * peak * height / (4 * np.pi * u * v)) * wo[2]
+    assert float(value.x[0]) == pytest.approx(expected, rel=1e-5)
+
+
+@pytest.mark.parametrize("variant", VARIANTS)
+def test_ward_reflects_no_more_than_it_gets_at_any_angle(fast, variant):
+    import drjit as dr
+
+    # Duer's form is known to gain energy at grazing angles.
+    count, angles = 2**17, np.linspace(0, np.radians(80 if variant == "ward-duer" else 89), 12)
+    for u, v in WIDTHS:
+        lobe = ward(fast, variant, 0.0, 1.0, u, v)
+        random = np.random.default_rng(1).random((3, count))
+        for angle in angles:
+            si = dr.zeros(fast.SurfaceInteraction3f, count)
+            si.wi = fast.Vector3f(
+                float(0.6 * np.sin(angle)), float(0.8 * np.sin(angle)), float(np.cos(angle))
+            )
+            _, weight = lobe.sample(fast.BSDFContext(), si, fast.Float(random[0]), fast.Point2f(random[1:]))
+            given = weight.x.numpy()
+            assert given.mean() < 1 + 4 * given.std() / np.sqrt(count), (variant, u, v, angle)
+
+
+def test_a_scene_with_ward_says_that_it_needs_our_plugin(tmp_path):
+    names = ("anisoward",)
+    native = renderer().translate(row(names=names), (), tmp_path, "scene")
+    assert "anisoward needs a plugin of ours" in native.read_text()
+
+
+def test_ward_renders_without_llvm_as_well(tmp_path, monkeypatch):
+    one = row(names=("anisoward",), samples=512)
+    materials = {name: one.materials[name] for name in ("anisoward", "floor", "soot")}
+    one = replace(one, materials=materials)
+    fast = picture(one, tmp_path).radiance.mean(axis=(0, 1))
+    monkeypatch.setattr(llvm, "prepare", lambda: None)
+    slow = picture(replace(one, integrator=replace(one.integrator, samples=128)), tmp_path)
+    assert slow.attributes["integrator"] == "stock specfilm"
+    np.testing.assert_allclose(slow.radiance.mean(axis=(0, 1)), fast, rtol=0.03)
