@@ -26,6 +26,7 @@ ABSENT = Fidelity("absent")
 TABLE: Mapping[str, Mapping[str, Fidelity]] = {
     "material matte": {"mitsuba": EXACT, "tracer": EXACT, "sphere": EXACT},
     "material anisoward": {"mitsuba": EXACT, "tracer": EXACT, "sphere": EXACT},
+    "material metal": {"mitsuba": EXACT},
     "material mirror": {"mitsuba": EXACT, "tracer": EXACT},
     "material plastic": {"mitsuba": EXACT},
     "material roughplastic": {"mitsuba": EXACT},

@@ -64,6 +64,27 @@ def cube(inwards=False, normals=False):
     return Mesh(vertices, triangles, smooth if normals else None)
 
 
+def ball(radius=1.0, rings=24, normals=True):
+    """Return a ball of triangles about the origin, smooth unless said."""
+    polar, turn = np.meshgrid(
+        np.linspace(0, np.pi, rings + 1), np.linspace(0, 2 * np.pi, 2 * rings + 1), indexing="ij"
+    )
+    out = np.stack([np.sin(polar) * np.cos(turn), np.sin(polar) * np.sin(turn), np.cos(polar)], -1)
+    out = out.reshape(-1, 3)
+    i, j = (index.ravel() for index in np.meshgrid(np.arange(rings), np.arange(2 * rings)))
+    a, b = i * (2 * rings + 1) + j, (i + 1) * (2 * rings + 1) + j
+    triangles = np.concatenate([np.stack([a, b, b + 1], 1), np.stack([a, b + 1, a + 1], 1)])
+    smooth = out.astype(np.float32) if normals else None
+    return Mesh((radius * out).astype(np.float32), triangles.astype(np.int32), smooth)
+
+
+def ward(id, diffuse=GREY, specular=0.3, alpha_u=0.2, alpha_v=None, variant="ward"):
+    alpha_v = alpha_u if alpha_v is None else alpha_v
+    specular = Spectrum.constant(specular) if isinstance(specular, float) else specular
+    said = {"diffuseReflectance": diffuse, "specularReflectance": specular}
+    return Material(id, "anisoward", {**said, "alphaU": alpha_u, "alphaV": alpha_v, "variant": variant})
+
+
 def lamp(kind, to_world, intensity=SHAPE_OF_LIGHT, **parameters):
     unit = Unit.IRRADIANCE if kind == "directional" else Unit.INTENSITY
     defaults = {"point": {"radius": 0.0}, "spot": {"cone": 45.0, "blend": 0.0, "radius": 0.0}}

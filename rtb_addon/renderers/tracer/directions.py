@@ -6,9 +6,35 @@ They are (3, n) arrays, a row per axis of space, because numpy is quickest along
 
 from __future__ import annotations
 
+from typing import NamedTuple
+
 import numpy as np
 
 from ...spectra import FloatArray
+
+
+class Frame(NamedTuple):
+    """Axes at many places, (3, n) unit vectors across each other."""
+
+    s: FloatArray
+    t: FloatArray
+    n: FloatArray
+
+    @classmethod
+    def about(cls, n: FloatArray, s: FloatArray | None = None) -> Frame:
+        """Return axes about unit vectors n; the first as near as can be to s, or anywhere."""
+        if s is None:
+            return cls(*tangents(n), n)
+        s = normalised(s - dot(s, n) * n)
+        return cls(s, cross(n, s), n)
+
+    def local(self, a: FloatArray) -> FloatArray:
+        """Return vectors of the world along these axes."""
+        return np.stack([dot(self.s, a), dot(self.t, a), dot(self.n, a)])
+
+    def world(self, a: FloatArray) -> FloatArray:
+        """Return vectors along these axes in the world."""
+        return a[0] * self.s + a[1] * self.t + a[2] * self.n
 
 
 def dot(a: FloatArray, b: FloatArray) -> FloatArray:
@@ -55,11 +81,11 @@ def cone(axes: FloatArray, one_minus_cosine: FloatArray, u: FloatArray, v: Float
     below = u * one_minus_cosine
     r = np.sqrt(below * (2 - below))
     turn = 2 * np.pi * v
-    s, t = _tangents(axes)
+    s, t = tangents(axes)
     return s * (r * np.cos(turn)) + t * (r * np.sin(turn)) + axes * (1 - below)
 
 
-def _tangents(n: FloatArray) -> tuple[FloatArray, FloatArray]:
+def tangents(n: FloatArray) -> tuple[FloatArray, FloatArray]:
     """Return two vectors across each unit vector (Duff et al. 2017, JCGT 6(1), listing 3)."""
     x, y, z = n
     sign = np.where(z < 0, -1.0, 1.0)

@@ -9,7 +9,7 @@ No path ends by chance: its length is its integrator's depth.
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Iterator, Sequence
 from typing import NamedTuple
 
 import numpy as np
@@ -21,10 +21,11 @@ from ...spectra import FloatArray
 from ..interface import Report
 from .camera import rays
 from .directions import dot
-from .intersect import Places, Surfaces, best_kernel
+from .intersect import Surfaces, best_kernel
 from .kernels import Hits, Kernel
 from .lights import Lights
-from .materials import Materials, lobe, scattered
+from .materials import Materials
+from .meeting import Meeting, Model, column
 from .sampler import Sampler
 
 # Paths in a wave: few enough that its arrays stay in the processor's cache and that
@@ -45,7 +46,7 @@ class World(NamedTuple):
     def of(cls, scene: RenderScene, kernel: Callable[[FloatArray], Kernel]) -> World:
         """Return a scene's world, its rays found by a kernel."""
         materials = Materials(scene.materials.values(), scene.film)
-        surfaces = Surfaces(scene.shapes, materials.numbers, kernel)
+        surfaces = Surfaces(scene.shapes, materials.numbers, kernel, materials.oriented)
         return cls(surfaces, materials, Lights(scene, surfaces))
 
     def meet(self, origins: FloatArray, directions: FloatArray, reach: FloatArray | None) -> Hits:
@@ -91,6 +92,21 @@ class Paths(NamedTuple):
             reach,
             self.density[rows],
             self.throughput.take(rows, axis=0),
+        )
+
+    @classmethod
+    def joined(cls, parts: Sequence[Paths], before: Paths) -> Paths:
+        """Return all paths of some parts, none of those before when there are no parts."""
+        if len(parts) < 2:
+            return parts[0] if parts else before.only(np.zeros(0, int))
+        number, origins, directions, _, density, throughput = zip(*parts, strict=True)
+        return cls(
+            np.concatenate(number),
+            np.concatenate(origins, axis=1),
+            np.concatenate(directions, axis=1),
+            None,
+            np.concatenate(density),
+            np.concatenate(throughput),
         )
 
 
@@ -168,12 +184,13 @@ def follow(world: World, paths: Paths, draw: _Draw, depth: int) -> FloatArray:
         _add_met(world, paths, hits, found)
         if step == depth:
             break
-        paths, hits = _reflected(world, paths, hits)
+        parts = []
+        for model, theirs, met in _met_surfaces(world, paths, hits):
+            _add_sampled(world, theirs, model, met, draw.pair(2 * step - 1, theirs.number), found)
+            parts.append(_scattered(theirs, model, met, draw.pair(2 * step, theirs.number)))
+        paths = Paths.joined(parts, paths)
         if not len(paths.number):
             break
-        places = world.surfaces.places(hits, paths.directions)
-        _add_sampled(world, paths, places, draw.pair(2 * step - 1, paths.number), found)
-        paths = _scattered(paths, places, draw.pair(2 * step, paths.number))
     return found
 
 
@@ -186,55 +203,67 @@ def _add_met(world: World, paths: Paths, hits: Hits, found: FloatArray) -> None:
     """
     for rows, row, strength, rival in world.lights.met(hits, paths.origins, paths.directions):
         if len(rows):
-            _add(world, paths, rows, row, strength / (1 + rival / paths.density[rows]), found)
+            _add(world, paths, rows, row, column(strength / (1 + rival / paths.density[rows])), found)
 
 
-def _add_sampled(world: World, paths: Paths, places: Places, draw: Pair, found: FloatArray) -> None:
+def _met_surfaces(world: World, paths: Paths, hits: Hits) -> Iterator[tuple[Model, Paths, Meeting]]:
+    """Yield the paths that met a surface which is not black, by how it scatters, and what they met."""
+    rows = np.nonzero(hits.triangle >= 0)[0]
+    material = world.surfaces.material[hits.triangle[rows]]
+    bright = world.materials.reflects[material]
+    rows, material = rows[bright], material[bright]
+    for model, where, row in world.materials.sorted(material):
+        theirs, some = paths.only(rows[where]), hits.only(rows[where])
+        met = Meeting(row, world.surfaces.places(some, theirs.directions), theirs.directions)
+        if (factor := model.shared(met)) is not None:
+            # In place even where nothing was left out: nobody asks for the paths as they came.
+            np.multiply(theirs.throughput, factor, out=theirs.throughput)
+        yield model, theirs, met
+
+
+def _add_sampled(
+    world: World, paths: Paths, model: Model, met: Meeting, draw: Pair, found: FloatArray
+) -> None:
     """
     Look for a light from every place, and add it where the way is free.
 
     f cos / density, times the balance heuristic density / (density + rival) where scattering could have
-    met the light as well; the rival density is that of the lobe.
+    met the light as well; the rival density is that of scattering.
     """
-    sample = world.lights.sample(places.start, *draw)
+    sample = None if model.single else world.lights.sample(met.places.start, *draw)
     if sample is None:
         return
-    reflected = lobe(dot(places.normals, sample.directions))
-    strength = sample.strength * reflected / (sample.density + sample.extended * reflected)
-    rows = np.nonzero((strength > 0) & (dot(places.faces, sample.directions) > 0))[0]
-    start, directions = places.start.take(rows, axis=1), sample.directions.take(rows, axis=1)
+    side = dot(met.places.faces, sample.directions)
+    rows = np.nonzero((sample.strength > 0) & ((side > 0) | model.transmits))[0]
+    start, directions = _starts(met, model, side).take(rows, axis=1), sample.directions.take(rows, axis=1)
     rows = rows[~world.blocked(start, directions, sample.reach[rows])]
-    _add(world, paths, rows, sample.row[rows], strength[rows], found)
+    value, rival = model.evaluate(met, rows, sample.directions)
+    strength = sample.strength[rows] / (sample.density[rows] + sample.extended[rows] * rival)
+    _add(world, paths, rows, sample.row[rows], value * column(strength), found)
 
 
 def _add(
     world: World, paths: Paths, rows: IntArray, row: IntArray, strength: FloatArray, found: FloatArray
 ) -> None:
-    """Add light to some paths: throughput times spectrum times strength, band by band."""
+    """Add light to some paths: throughput times spectrum times (n, bands or 1) strength, band by band."""
     light = paths.throughput.take(rows, axis=0)
     light *= world.lights.spectra.take(row, axis=0)
-    light *= strength.astype(np.float32)[:, None]
+    light *= strength
     found[paths.number[rows]] += light
 
 
-def _reflected(world: World, paths: Paths, hits: Hits) -> tuple[Paths, Hits]:
-    """Return the paths that met a surface which is not black, its reflectance in their throughput."""
-    rows = np.nonzero(hits.triangle >= 0)[0]
-    material = world.surfaces.material[hits.triangle[rows]]
-    bright = world.materials.reflects[material]
-    rows, material = rows[bright], material[bright]
-    kept = paths.only(rows)
-    # In place even where nothing was left out: nobody asks for the paths as they came.
-    np.multiply(kept.throughput, world.materials.reflectance.take(material, axis=0), out=kept.throughput)
-    return kept, hits.only(rows)
+def _scattered(paths: Paths, model: Model, met: Meeting, draw: Pair) -> Paths:
+    """Return paths that go on in random directions; those that would go through an opaque surface end."""
+    directions, density, weight = model.scattered(met, *draw)
+    side = dot(met.places.faces, directions)
+    throughput = paths.throughput if weight is None else paths.throughput * weight
+    onward = Paths(paths.number, _starts(met, model, side), directions, None, density, throughput)
+    return onward.only(np.nonzero(((side > 0) | model.transmits) & (density > 0))[0])
 
 
-def _scattered(paths: Paths, places: Places, draw: Pair) -> Paths:
-    """Return paths that go on in random directions; those that would go through the surface end."""
-    directions = scattered(places.normals, *draw)
-    density = lobe(dot(places.normals, directions))
-    onward = Paths(paths.number, places.start, directions, None, density, paths.throughput)
-    return onward.only(np.nonzero((dot(places.faces, directions) > 0) & (density > 0))[0])
+def _starts(met: Meeting, model: Model, side: FloatArray) -> FloatArray:
+    """Return where rays start that leave to a side: 1 where the path came from, -1 the other."""
+    return np.where(side > 0, met.places.start, met.places.behind) if model.transmits else met.places.start
 
 
 def _depth(scene: RenderScene) -> int:

@@ -14,11 +14,12 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from ...scene.render_scene import Shape
+from ...scene.render_scene import IntArray, Shape
 from ...spectra import FloatArray
 from .bvh import Bvh
 from .directions import cross, dot, normalised
 from .kernels import Embree, Hits, Kernel
+from .texture_space import along_u
 
 # How far a ray starts off a surface, per size of the numbers in it: 16 units of single precision.
 _LIFT = 2.0**-20
@@ -41,11 +42,33 @@ class Places(NamedTuple):
     faces : (3, n) unit normals of the triangles, towards the ray's origin
     normals : (3, n) unit normals to shade with, on the same side for a smooth mesh
     start : (3, n) points [m] a little above, which single precision tells from the surface
+    lift : (n,) how far above [m]
+    side : (n,) 1 where the ray came from the side that the triangle's own normal points to, else -1
+    tangents : (3, n) vectors along which U grows, or None where no material asks for them
     """
 
     faces: FloatArray
     normals: FloatArray
     start: FloatArray
+    lift: FloatArray
+    side: FloatArray
+    tangents: FloatArray | None = None
+
+    @property
+    def behind(self) -> FloatArray:
+        """Points [m] as far below the surface as start is above."""
+        return self.start - 2 * self.lift * self.faces
+
+    def only(self, rows: IntArray) -> Places:
+        """Return some of them."""
+        return Places(
+            self.faces.take(rows, axis=1),
+            self.normals.take(rows, axis=1),
+            self.start.take(rows, axis=1),
+            self.lift[rows],
+            self.side[rows],
+            None if self.tangents is None else self.tangents.take(rows, axis=1),
+        )
 
 
 class Surfaces:
@@ -62,10 +85,18 @@ class Surfaces:
     lift : (triangles,) distance from each [m] at which single precision tells a place from its surface
     shape, material : (triangles,) int32 arrays, numbers of its shape and material
     kernel : what finds them
+
+    Parameters
+    ----------
+    oriented : whether some material asks for the direction in which U grows
     """
 
     def __init__(
-        self, shapes: Sequence[Shape], materials: Mapping[str, int], make: Callable[[FloatArray], Kernel]
+        self,
+        shapes: Sequence[Shape],
+        materials: Mapping[str, int],
+        make: Callable[[FloatArray], Kernel],
+        oriented: bool = False,
     ) -> None:
         counts = [len(shape.mesh.triangles) for shape in shapes]
         self.shape = np.repeat(np.arange(len(shapes), dtype=np.int32), counts)
@@ -76,6 +107,7 @@ class Surfaces:
         sides = np.array([_side(shape) for shape in shapes]).take(self.shape)
         self.normals = normalised(cross(one, two)) * sides
         self._smooth = _shading_normals(shapes, self.normals)
+        self._tangents = along_u(shapes, self.normals, one, two) if oriented else None
         self._centre = self._middle()
         self.lift = np.abs(self.corners - self._centre).max(axis=(0, 1), initial=0) * _LIFT
         # One table, since one gather is quicker than many: a corner, two edges, normal and lift.
@@ -108,7 +140,8 @@ class Surfaces:
         if self._smooth is not None:
             a, b, c = self._smooth.take(hits.triangle, axis=2)
             normals = side * normalised(a + hits.u * (b - a) + hits.v * (c - a))
-        return Places(faces, normals, points + faces * rows[12])
+        tangents = None if self._tangents is None else self._tangents.take(hits.triangle, axis=1)
+        return Places(faces, normals, points + faces * rows[12], rows[12], side, tangents)
 
     def radius(self) -> float:
         """Return the radius [m] of a sphere around everything; 1 when there is nothing."""

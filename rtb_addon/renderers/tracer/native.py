@@ -23,18 +23,18 @@ from ..fidelity import unsupported
 from ..interface import Extras
 from ..native_lines import integrator_with
 from ..ply import read_mesh, write_mesh
+from .checks import check
 
 VERSION = 1
 _FORMAT = "RenderToolbox tracer scene"
-_RANGES = {"radius": (0, 1e30), "cone": (0, 180), "blend": (0, 1), "angle": (0, 180)}
 
 
-def translate(scene: RenderScene, extras: Extras, folder: Path, name: str) -> Path:
+def translate(scene: RenderScene, extras: Extras, folder: Path, name: str, renderer: str = "tracer") -> Path:
     """Write a scene as folder/NAME.json, its meshes in folder/meshes, and return that file."""
-    if lacking := unsupported(scene, "tracer"):
+    if lacking := unsupported(scene, renderer):
         raise RecipeError(lacking[0])
-    _check(scene)
-    scene = replace(scene, integrator=integrator_with(scene.integrator, extras, "tracer"))
+    check(scene)
+    scene = replace(scene, integrator=integrator_with(scene.integrator, extras, renderer))
     path = folder / f"{name}.json"
     write_text(path, _text(_scene(scene, folder)) + "\n")
     return path
@@ -49,20 +49,6 @@ def read(path: Path) -> RenderScene:
         return _read_scene(native, path.parent)
     except (OSError, ValueError, KeyError, TypeError) as error:
         raise RenderingError(f"{path.name} cannot be read, translate the scene again ({error!r})") from error
-
-
-def _check(scene: RenderScene) -> None:
-    """Raise RecipeError for numbers of lights, and names of materials, that have no meaning."""
-    for light in scene.lights:
-        for name, (low, high) in _RANGES.items():
-            value = light.parameters.get(name, low)
-            if not (isinstance(value, int | float) and low <= value <= high):
-                raise RecipeError(
-                    f"light {light.id} has {name} {value}, give a number from {low:g} to {high:g}"
-                )
-    for shape in scene.shapes:
-        if shape.material not in scene.materials:
-            raise RecipeError(f"shape {shape.id} is of material {shape.material}, which the scene has not")
 
 
 def _scene(scene: RenderScene, folder: Path) -> dict[str, Any]:

@@ -3,15 +3,54 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
+from typing import TYPE_CHECKING, NamedTuple
 
 import numpy as np
+from numpy.typing import NDArray
 
 from ...errors import RenderingError
-from ...scene.render_scene import Film
+from ...scene.render_scene import Film, Material
 from ...spectra import FloatArray, Spectrum
+
+if TYPE_CHECKING:
+    from .meeting import Meeting
 
 # Products of a light and a few distances must stay within single precision.
 _LARGEST = 1e30
+
+
+class Colours:
+    """
+    One spectrum for each material of a kind.
+
+    Attributes
+    ----------
+    bright : (materials,) bool array, False for those that are black in every band
+    """
+
+    def __init__(self, rows: FloatArray) -> None:
+        self._rows = rows
+        self.bright: NDArray[np.bool_] = rows.any(axis=1)
+
+    def at(self, met: Meeting) -> FloatArray:
+        """Return the (n, bands) float32 spectra where paths met surfaces."""
+        return self._rows.take(met.row, axis=0)
+
+
+class Palette(NamedTuple):
+    """What makes colours out of the parameters of materials."""
+
+    film: Film
+
+    def colours(self, materials: Sequence[Material], name: str) -> Colours:
+        """Return the spectra of one parameter of materials."""
+        named = [(f"{name} of material {one.id}", one.parameters[name]) for one in materials]
+        return Colours(table(named, self.film))
+
+
+def numbers(materials: Sequence[Material], name: str) -> FloatArray:
+    """Return the (materials,) numbers of one parameter of materials."""
+    return np.array([one.parameters[name] for one in materials], float)
 
 
 def table(named: Sequence[tuple[str, object]], film: Film) -> FloatArray:

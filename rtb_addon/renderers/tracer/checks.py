@@ -1,0 +1,70 @@
+"""Numbers and names that a scene must get right before it can be rendered."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Mapping
+
+from ...errors import RecipeError
+from ...scene.render_scene import Material, RenderScene, Value
+
+_LIGHTS = {"radius": (0, 1e30), "cone": (0, 180), "blend": (0, 1), "angle": (0, 180)}
+_MATERIALS = {
+    "alphaU": (1e-4, 10),
+    "alphaV": (1e-4, 10),
+    "roughness": (0, 10),
+    "intIOR": (0.1, 10),
+    "extIOR": (0.1, 10),
+    "weight": (0, 1),
+    "opacity": (0, 1),
+}
+VARIANTS = ("ward", "ward-duer", "balanced")
+_REFERENCES = ("materialID", "otherMaterialID")
+
+
+def check(scene: RenderScene) -> None:
+    """Raise RecipeError for numbers, and names of materials, that have no meaning."""
+    for light in scene.lights:
+        _check_numbers(f"light {light.id}", light.parameters, _LIGHTS)
+    for shape in scene.shapes:
+        if shape.material not in scene.materials:
+            raise RecipeError(f"shape {shape.id} is of material {shape.material}, which the scene has not")
+    for material in scene.materials.values():
+        _check_numbers(f"material {material.id}", material.parameters, _MATERIALS)
+        _check_variant(material)
+        _check_references(material, scene.materials)
+
+
+def parts(material: Material) -> Iterator[str]:
+    """Yield the ids of the materials that a material is made of."""
+    for name in _REFERENCES:
+        if name in material.parameters:
+            yield str(material.parameters[name])
+
+
+def _check_numbers(what: str, said: Mapping[str, Value], ranges: Mapping[str, tuple[float, float]]) -> None:
+    for name, (low, high) in ranges.items():
+        value = said.get(name, low)
+        if not (isinstance(value, int | float) and low <= value <= high):
+            raise RecipeError(f"{what} has {name} {value}, give a number from {low:g} to {high:g}")
+
+
+def _check_variant(material: Material) -> None:
+    variant = material.parameters.get("variant", VARIANTS[0])
+    if variant not in VARIANTS:
+        raise RecipeError(
+            f"material {material.id} has variant {variant}, choose one of {', '.join(VARIANTS)}"
+        )
+
+
+def _check_references(material: Material, materials: Mapping[str, Material]) -> None:
+    """Raise RecipeError where a material is made of one that is missing, or of itself."""
+    above, here = [material.id], list(parts(material))
+    while here:
+        id = here.pop()
+        if id not in materials:
+            raise RecipeError(f"material {material.id} is made of {id}, which the scene has not")
+        if id in above[:1]:
+            raise RecipeError(f"material {material.id} is made of itself, give it other materials")
+        if id not in above:
+            above.append(id)
+            here.extend(parts(materials[id]))

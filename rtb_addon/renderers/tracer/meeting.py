@@ -1,0 +1,121 @@
+"""
+Where paths meet surfaces of one kind of material, and what such a kind can do.
+
+Directions never depend on wavelength; what depends on it comes out as a column per band. So
+the spectra of a scene never decide where a path goes.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from functools import cached_property
+from typing import NamedTuple, Protocol
+
+import numpy as np
+from numpy.typing import NDArray
+
+from ...scene.render_scene import IntArray
+from ...spectra import FloatArray
+from .directions import Frame
+from .intersect import Places
+
+
+@dataclass(frozen=True, eq=False)
+class Meeting:
+    """
+    Paths and the surfaces of one kind that they met.
+
+    Parameters
+    ----------
+    row : (n,) int array, each surface's row among the materials of its kind
+    places : where that was
+    directions : (3, n) unit vectors along which the paths came
+    """
+
+    row: IntArray
+    places: Places
+    directions: FloatArray
+
+    @cached_property
+    def frame(self) -> Frame:
+        """Each place's own axes; the third is the normal on the side that the path came from."""
+        return Frame.about(self.places.normals, self.places.tangents)
+
+    @cached_property
+    def back(self) -> FloatArray:
+        """The (3, n) unit vectors back to where the paths came from, along the axes of frame."""
+        return -self.frame.local(self.directions)
+
+    def only(self, rows: IntArray) -> Meeting:
+        """Return some of them, in this order."""
+        if len(rows) == len(self.row):
+            return self
+        return Meeting(self.row[rows], self.places.only(rows), self.directions.take(rows, axis=1))
+
+
+class Onward(NamedTuple):
+    """
+    Where paths go on.
+
+    Parameters
+    ----------
+    directions : (3, n) unit vectors
+    density : (n,) of the direction [sr-1]; infinite where it was the only one, 0 where the path ends
+    weight : (n, bands or 1) array, f cos / density, without what Model.shared says; None where that is 1
+    """
+
+    directions: FloatArray
+    density: FloatArray
+    weight: FloatArray | None = None
+
+
+class Model(Protocol):
+    """
+    A kind of material: all materials of a scene that scatter by the same formulas.
+
+    Attributes
+    ----------
+    single : it scatters into single directions only, so that looking for a light is in vain
+    transmits : light goes through
+    """
+
+    single: bool
+    transmits: bool
+
+    def shared(self, met: Meeting) -> FloatArray | None:
+        """Return the (n, bands) factor of all that a surface scatters, None where there is none."""
+        ...
+
+    def evaluate(self, met: Meeting, rows: IntArray, towards: FloatArray) -> tuple[FloatArray, FloatArray]:
+        """
+        Return f cos and the density [sr-1] of scattered() at some of the places.
+
+        f cos is (m, bands or 1), without what shared() says.
+
+        Parameters
+        ----------
+        rows : (m,) int array, which places
+        towards : (3, n) unit vectors, one from every place
+        """
+        ...
+
+    def scattered(self, met: Meeting, u: FloatArray, v: FloatArray) -> Onward:
+        """Return a direction from each place for (n,) random numbers in [0, 1)."""
+        ...
+
+
+def chosen(chance: FloatArray, u: FloatArray) -> tuple[NDArray[np.bool_], FloatArray]:
+    """Return which of (n,) random numbers in [0, 1) are below a chance, and numbers as random as before."""
+    first = u < chance
+    rest = np.where(first, u, u - chance) / np.maximum(np.where(first, chance, 1 - chance), 1e-30)
+    return first, rest.clip(0, 1 - 2.0**-53)
+
+
+def weighed(value: FloatArray, density: FloatArray) -> FloatArray:
+    """Return values over their densities [sr-1], 0 where the density is."""
+    return value * column(np.where(density > 0, 1 / np.where(density > 0, density, 1), 0))
+
+
+def column(values: FloatArray) -> FloatArray:
+    """Return (n,) numbers as an (n, 1) float32 array, the same for every band."""
+    return values.astype(np.float32)[:, None]

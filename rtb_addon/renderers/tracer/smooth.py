@@ -1,0 +1,55 @@
+"""Surfaces that scatter each ray into one other: mirrors."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+
+import numpy as np
+
+from ...scene.render_scene import IntArray, Material
+from ...spectra import FloatArray
+from .directions import dot
+from .meeting import Meeting, Onward
+from .tables import Palette
+
+
+class Single:
+    """What scatters into single directions has in common: a light is never in just that one."""
+
+    single = True
+    transmits = False
+
+    def shared(self, met: Meeting) -> FloatArray | None:
+        """Return None: nothing is shared."""
+        return None
+
+    def evaluate(self, met: Meeting, rows: IntArray, towards: FloatArray) -> tuple[FloatArray, FloatArray]:
+        """Return 0 twice."""
+        nothing = np.zeros(len(rows))
+        return nothing[:, None], nothing
+
+
+class Mirror(Single):
+    """Perfect mirrors, on both sides, times a reflectance."""
+
+    def __init__(self, materials: Sequence[Material], palette: Palette) -> None:
+        self._reflectance = palette.colours(materials, "specularReflectance")
+
+    def shared(self, met: Meeting) -> FloatArray:
+        """Return the reflectance."""
+        return self._reflectance.at(met)
+
+    def scattered(self, met: Meeting, u: FloatArray, v: FloatArray) -> Onward:
+        """Return the mirrored directions."""
+        return Onward(mirrored(met), only_one(met))
+
+
+def mirrored(met: Meeting) -> FloatArray:
+    """Return the directions of paths after a mirror in each place's shading normal."""
+    normals = met.places.normals
+    return met.directions - 2 * dot(met.directions, normals) * normals
+
+
+def only_one(met: Meeting) -> FloatArray:
+    """Return the densities of directions that are the only ones."""
+    return np.full(len(met.row), np.inf)
