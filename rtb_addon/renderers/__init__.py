@@ -9,7 +9,7 @@ from importlib.metadata import entry_points
 from ..errors import RecipeError
 from .interface import Renderer
 
-_MODULES = {"mitsuba": ".mitsuba", "tracer": ".tracer"}
+_MODULES = {"mitsuba": ".mitsuba", "sphere": ".sphere", "tracer": ".tracer"}
 _added: dict[str, Callable[[], Renderer]] = {}
 
 
