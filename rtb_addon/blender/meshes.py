@@ -2,29 +2,10 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
-from contextlib import contextmanager
-
 import numpy as np
 
 from ..scene.surface import Corners, IntArray, Surface, distinct_at
 from ..spectra import FloatArray
-
-# Objects that have triangles, by themselves or once they are evaluated.
-WITH_SURFACE = ("MESH", "CURVE", "SURFACE", "FONT", "META")
-
-
-@contextmanager
-def evaluated_mesh(object_) -> Iterator:
-    """Yield the mesh of an evaluated object, or None where it has none."""
-    if object_.type == "MESH":
-        yield object_.data
-        return
-    mesh = object_.to_mesh()
-    try:
-        yield mesh
-    finally:
-        object_.to_mesh_clear()
 
 
 def surface_of(mesh, symbols: tuple[str, ...]) -> Surface | None:
@@ -35,7 +16,7 @@ def surface_of(mesh, symbols: tuple[str, ...]) -> Surface | None:
     ----------
     symbols : names for the materials of its slots
     """
-    if mesh is None or len(mesh.polygons) == 0:
+    if len(mesh.polygons) == 0:
         return None
     vertices = _read(mesh.attributes["position"].data, "vector", 3)
     mesh.calc_loop_triangles()

@@ -83,16 +83,20 @@ class ParentWriter:
         return id
 
     def _body(self, id: str, node: Node) -> None:
+        """Write a surface, one geometry for each radiance that it has somewhere."""
         body = self.seen.bodies[node.content]
-        geometry = self._once("body", node.content, lambda: self.document.geometry(body.name, body.surface))
+        radiance = None
+        if node.emission is not None:
+            area = surface_area(body.surface, node.to_world) * self.seen.meter**2
+            radiance = node.emission.spoken(node.name, area)
+        key = (node.content, None if radiance is None else radiance.treatment)
+        geometry = self._once("body", key, lambda: self.document.geometry(body.name, body.surface))
         bound = {
             body.surface.symbols[slot]: self._paint(self.seen.paints[name])
             for slot, name in node.materials.items()
         }
         self.document.use_geometry(id, geometry, bound)
-        if node.emission is not None:
-            area = surface_area(body.surface, node.to_world) * self.seen.meter**2
-            radiance = node.emission.spoken(node.name, area)
+        if radiance is not None:
             self._say(Statement(geometry, node.name, "light", "area", {"intensity": radiance}, {}))
 
     def _lamp(self, id: str, node: Node) -> None:

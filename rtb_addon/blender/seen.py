@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from typing import Literal
 
 import numpy as np
@@ -19,7 +19,7 @@ from .cameras import View, view_of
 from .folders import typed
 from .lamps import Lamp, read_lamp
 from .materials import Paint, read_material
-from .meshes import WITH_SURFACE, evaluated_mesh, surface_of
+from .meshes import surface_of
 from .properties import rendered_size
 from .statements import Spoken
 from .worlds import read_world
@@ -124,14 +124,25 @@ def _look(seen: Seen, instance, depsgraph) -> None:
     object_ = instance.object
     name = object_.name_full
     to_world = np.array(instance.matrix_world, float)
-    if instance.is_instance:
-        parent = instance.parent.name_full
-        key, name, own = f"{parent}\n{len(seen.nodes)}", f"{parent}_{name}", None
-    else:
-        parent = None if object_.parent is None else object_.parent.name_full
-        key, own = name, _own_placement(object_)
     content = _content(seen, object_, depsgraph) if instance.show_self or instance.is_instance else {}
-    seen.nodes[key] = Node(key, name, parent, to_world, own, **content)
+    if not instance.is_instance:
+        above = None if object_.parent is None else object_.parent.name_full
+        seen.nodes[name] = Node(name, name, above, to_world, _own_placement(object_), **content)
+        return
+    above = instance.parent.name_full
+    if not content:
+        return
+    if name == above and _is_free(seen, above, to_world):  # the triangles of a curve, a text, a metaball
+        seen.nodes[above] = replace(seen.nodes[above], **content)
+        return
+    key = f"{above}\n{len(seen.nodes)}"
+    seen.nodes[key] = Node(key, f"{above}_{name}", above, to_world, None, **content)
+
+
+def _is_free(seen: Seen, name: str, to_world: FloatArray) -> bool:
+    """Return whether the node of an object shows nothing yet and stands in a place."""
+    node = seen.nodes.get(name)
+    return node is not None and node.kind == "empty" and np.array_equal(node.to_world, to_world)
 
 
 def _content(seen: Seen, object_, depsgraph) -> dict:
@@ -143,7 +154,7 @@ def _content(seen: Seen, object_, depsgraph) -> dict:
         return {"kind": "lamp", "content": name}
     if object_.type == "CAMERA":
         return {"kind": "camera", "content": _camera(seen, object_, depsgraph.scene)}
-    if object_.type in WITH_SURFACE:
+    if object_.type == "MESH":
         return _body(seen, object_, depsgraph.view_layer_eval.material_override)
     if object_.type in _UNKNOWN:
         what = _UNKNOWN[object_.type]
@@ -163,23 +174,19 @@ def _camera(seen: Seen, object_, scene) -> str:
 
 
 def _body(seen: Seen, object_, override) -> dict:
-    """Return a surface of an object, shared with those that have the same evaluated mesh."""
-    emission = _emission(object_)
-    key = (object_.data.as_pointer(), "" if object_.type == "MESH" else object_.name_full)
-    if emission is not None:
-        key = (*key, object_.name_full)
+    """Return the surface of an object, shared with those that have the same evaluated mesh."""
+    mesh = object_.data
+    key = mesh.as_pointer()
     if key not in seen.bodies:
-        with evaluated_mesh(object_) as mesh:
-            own = () if mesh is None else tuple(_name(each) for each in mesh.materials)
-            surface = surface_of(mesh, _symbols(own))
+        own = tuple(_name(each) for each in mesh.materials)
+        surface = surface_of(mesh, _symbols(own))
         if surface is None:
             return {}
-        seen.bodies[key] = Body(
-            object_.data.name_full, surface, own, tuple(np.unique(surface.parts).tolist())
-        )
+        slots = tuple(np.unique(surface.parts).tolist())
+        seen.bodies[key] = Body(object_.original.data.name_full, surface, own, slots)
     body = seen.bodies[key]
     materials = {slot: _material(seen, object_, slot, override) for slot in body.slots}
-    return {"kind": "body", "content": key, "materials": materials, "emission": emission}
+    return {"kind": "body", "content": key, "materials": materials, "emission": _emission(object_)}
 
 
 def _symbols(materials: tuple[str, ...]) -> tuple[str, ...]:

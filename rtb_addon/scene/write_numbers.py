@@ -32,7 +32,8 @@ def numbers(values: ArrayLike) -> str:
 
 def shortest(value: float) -> float:
     """Return the decimal number with the fewest digits that is the same in single precision."""
-    return float(str(np.float32(value)))
+    # str() would follow the print options, which other libraries change.
+    return float(np.format_float_scientific(np.float32(value), unique=True))
 
 
 def floats(values: ArrayLike) -> bytes:
