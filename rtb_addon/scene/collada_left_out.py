@@ -34,7 +34,7 @@ def left_out(document: Scene) -> Iterator[str]:
     tracks = sum(local_name(each) in _TRACKS for node in document.of_kind("node") for each in _extras(node))
     if tracks:
         yield f"{tracks} tracks inside nodes are left out, the scene stands still"
-    for id, count in Counter(document.root.xpath("//@id")).items():
+    for id, count in Counter(filter(None, (each.get("id") for each in document.root.iter("{*}*")))).items():
         if count > 1:
             yield f"{count} elements have the id {id}, the last one is meant wherever it is named"
 

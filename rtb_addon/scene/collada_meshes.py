@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import hashlib
 from collections import OrderedDict
-from collections.abc import Iterator, Mapping
+from collections.abc import Callable, Iterator, Mapping
 from typing import NamedTuple
 
 import numpy as np
@@ -58,9 +58,30 @@ class _Faces(NamedTuple):
     holes: dict[int, int]
 
 
-# Geometries read already, the latest last: the conditions of a recipe mostly share theirs.
-_read: OrderedDict[bytes, tuple[Part, ...]] = OrderedDict()
-_KEPT = 256
+class _Known:
+    """Geometries read already, the latest last: the conditions of a recipe mostly share theirs."""
+
+    def __init__(self) -> None:
+        self._parts: OrderedDict[bytes, tuple[Part, ...]] = OrderedDict()
+        self._triangles = 0
+
+    def find(self, key: bytes, read: Callable[[], tuple[Part, ...]]) -> tuple[Part, ...]:
+        """Return the parts of a geometry, read where they are not known."""
+        if key not in self._parts:
+            self._parts[key] = read()
+            self._triangles += _size(self._parts[key])
+            while len(self._parts) > 1 and (self._triangles > _MOST_TRIANGLES or len(self._parts) > _MOST):
+                self._triangles -= _size(self._parts.popitem(last=False)[1])
+        self._parts.move_to_end(key)
+        return self._parts[key]
+
+
+def _size(parts: tuple[Part, ...]) -> int:
+    return sum(len(part.mesh.triangles) for part in parts)
+
+
+_MOST, _MOST_TRIANGLES = 50_000, 8_000_000
+_known = _Known()
 
 
 def geometry_parts(geometry: Element, uv_sets: Mapping[str, int] | None = None) -> tuple[Part, ...]:
@@ -76,12 +97,7 @@ def geometry_parts(geometry: Element, uv_sets: Mapping[str, int] | None = None) 
     content = etree.tostring(geometry, with_tail=False)
     chosen = repr(sorted((uv_sets or {}).items())).encode()
     key = hashlib.blake2b(content, digest_size=20).digest() + chosen
-    if key not in _read:
-        _read[key] = read_geometry(geometry, uv_sets)
-        if len(_read) > _KEPT:
-            _read.popitem(last=False)
-    _read.move_to_end(key)
-    return _read[key]
+    return _known.find(key, lambda: read_geometry(geometry, uv_sets))
 
 
 def read_geometry(geometry: Element, uv_sets: Mapping[str, int] | None = None) -> tuple[Part, ...]:

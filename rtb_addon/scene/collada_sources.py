@@ -10,6 +10,9 @@ from ..spectra import FloatArray
 from .paths import Element, local_name
 from .render_scene import IntArray
 
+# Texts shorter than this are quicker to read word by word.
+_SHORT = 300
+
 
 def child(element: Element, *names: str) -> Element | None:
     """Return the element that names lead to, from child to child, or None."""
@@ -98,6 +101,11 @@ def _numbers(element: Element, kind: type) -> np.ndarray:
     text = element.text or ""
     if not text or text.isspace():
         return np.zeros(0, kind)
+    if len(text) < _SHORT:
+        try:
+            return np.array(text.split(), kind)
+        except ValueError:
+            raise ValueError(f"{_named(element)} must hold numbers only") from None
     with warnings.catch_warnings():
         # numpy warns where it meets something that is no number.
         warnings.simplefilter("error", DeprecationWarning)

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Callable
 
 import numpy as np
@@ -39,15 +40,22 @@ def scale(factors: FloatArray) -> FloatArray:
 
 def rotate(numbers: FloatArray) -> FloatArray:
     """Return a turn about an axis, three numbers, by an angle [degrees], the fourth (Rodrigues)."""
-    length = float(np.linalg.norm(numbers[:3]))
+    x, y, z, angle = map(float, numbers)
+    length = math.hypot(x, y, z)
     if length == 0:
         raise ValueError("a rotate needs an axis, not 0 0 0")
-    x, y, z = numbers[:3] / length
-    cross = np.array([[0, -z, y], [z, 0, -x], [-y, x, 0]])
-    angle = np.radians(numbers[3])
-    matrix = np.eye(4)
-    matrix[:3, :3] += np.sin(angle) * cross + (1 - np.cos(angle)) * cross @ cross
-    return matrix
+    x, y, z = x / length, y / length, z / length
+    # Plain numbers: a scene of many objects has tens of thousands of these.
+    sine, cosine = math.sin(math.radians(angle)), math.cos(math.radians(angle))
+    rest = 1 - cosine
+    return np.array(
+        [
+            [cosine + x * x * rest, x * y * rest - z * sine, x * z * rest + y * sine, 0],
+            [y * x * rest + z * sine, cosine + y * y * rest, y * z * rest - x * sine, 0],
+            [z * x * rest - y * sine, z * y * rest + x * sine, cosine + z * z * rest, 0],
+            [0, 0, 0, 1],
+        ]
+    )
 
 
 def look_at(numbers: FloatArray) -> FloatArray:

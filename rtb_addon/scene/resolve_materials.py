@@ -46,6 +46,7 @@ class Materials:
     made: dict[str, Material] = field(default_factory=dict)
     textures: dict[str, Texture] = field(default_factory=dict)
     _emissions: dict[str, Spectrum | None] = field(default_factory=dict)
+    _effects: dict[str, Effect] = field(default_factory=dict)
 
     def use(self, id: str) -> None:
         """Make a material of this id, and whatever it refers to, part of the scene."""
@@ -146,6 +147,11 @@ class Materials:
         return TextureUse(image)
 
     def _effect(self, id: str) -> Effect:
+        if id not in self._effects:
+            self._effects[id] = self._read_effect(id)
+        return self._effects[id]
+
+    def _read_effect(self, id: str) -> Effect:
         material = self.document.linked(f"#{id}", "material")
         if (used := child(material, "instance_effect")) is None:
             return NO_EFFECT
