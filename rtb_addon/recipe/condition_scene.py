@@ -8,8 +8,10 @@ from pathlib import Path
 from typing import TYPE_CHECKING
 
 from .. import renderers
+from ..errors import RecipeError
 from ..renderers.fidelity import TABLE, unsupported
 from ..renderers.interface import Renderer
+from ..renderers.native_lines import refused
 from ..scene.adjustments import Adjustments, NativeLine
 from ..scene.document import Scene
 from ..scene.render_scene import RenderScene
@@ -67,6 +69,15 @@ def lacks(renderer: str, scene: RenderScene) -> list[str]:
     if not any(renderer in row for row in TABLE.values()):
         return []  # one of somebody else's, which must say so itself
     return unsupported(scene, renderer)
+
+
+def refused_lines(recipe: Recipe, condition: Condition, lines: Sequence[NativeLine]) -> list[RecipeError]:
+    """Return what is wrong with a condition's native lines, where a renderer of ours is to read them."""
+    name = recipe.options_of(condition).renderer
+    if not any(name in row for row in TABLE.values()):
+        return []
+    title = "Mitsuba" if name == "mitsuba" else name
+    return list(refused(remaining_lines(recipe, condition, lines), title))
 
 
 def remaining_lines(recipe: Recipe, condition: Condition, lines: Sequence[NativeLine]) -> list[NativeLine]:

@@ -8,7 +8,14 @@ from typing import TYPE_CHECKING, NamedTuple
 
 from ..consent import has_consent
 from ..errors import RecipeError
-from .condition_scene import adjustments_of, lacks, remodeled_parent, renderer_of, resolve_condition
+from .condition_scene import (
+    adjustments_of,
+    lacks,
+    refused_lines,
+    remodeled_parent,
+    renderer_of,
+    resolve_condition,
+)
 from .remodeler import REMODELER, UNTRUSTED, code_of
 
 if TYPE_CHECKING:
@@ -106,3 +113,4 @@ def _condition_findings(recipe: Recipe, condition: Condition) -> Iterator[Findin
         return
     yield from (Finding(None, sentence) for sentence in resolved.warnings)
     yield from (Finding(RecipeError(sentence)) for sentence in lacks(name, resolved.scene))
+    yield from map(Finding, refused_lines(recipe, condition, resolved.extras))

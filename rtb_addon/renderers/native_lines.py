@@ -8,7 +8,7 @@ any of ``. : $`` between the parts (formats.md, scene targets).
 from __future__ import annotations
 
 import re
-from collections.abc import Iterable
+from collections.abc import Iterable, Iterator
 from dataclasses import replace
 from typing import NamedTuple
 
@@ -100,6 +100,15 @@ def integrator_with(integrator: Integrator, lines: Iterable[NativeLine], rendere
             )
         integrator = replace(integrator, **changes)
     return integrator
+
+
+def refused(lines: Iterable[NativeLine], renderer: str) -> Iterator[RecipeError]:
+    """Yield what is wrong with native lines that a renderer would refuse when it translates a scene."""
+    for line in lines:
+        try:
+            integrator_with(Integrator(), [line], renderer)
+        except RecipeError as error:
+            yield error
 
 
 def _changes(setting: NativeSetting, line: NativeLine, integrator: Integrator) -> dict | None:

@@ -254,13 +254,19 @@ def test_every_condition_of_ours_renders_or_says_what_is_missing(tmp_path, rende
 
 
 def check_all(recipe, needs, renderer):
+    """Render every condition; what fails must have been foreseen by check, and nothing else."""
     recipe = recipe.overridden(renderer=renderer, **SMALL)
+    foreseen = {str(problem) for problem in recipe.problems()}
+    failed = set()
     for condition in recipe.conditions:
         needed = (*needs.get(EVERY, ()), *needs.get(condition.name, ()))
         missing = [each for each in needed if fidelity(renderer, each.feature).level == "absent"]
         sentences = outcome(recipe, condition.name)
         assert bool(sentences) == bool(missing), f"{condition.name}: {sentences}, expected {missing}"
         assert not missing or any(each.words in sentences for each in missing), sentences
+        failed |= {sentences} if not recipe.rendering_file(condition).is_file() else set()
+    assert failed <= foreseen
+    assert bool(failed) == bool(foreseen)
 
 
 def outcome(recipe, name):
