@@ -12,6 +12,11 @@ RED = Spectrum.of([400, 550, 620, 700], [0.05, 0.1, 0.7, 0.9])
 BLUE = Spectrum.of([400, 480, 560, 700], [0.9, 0.6, 0.15, 0.05])
 GREEN = Spectrum.of([400, 530, 700], [0.1, 0.8, 0.2])
 PALE = Spectrum.of([400, 700], [0.6, 0.9])
+# Every 50 nm, rounded: enough to look like gold.
+GOLD = {
+    "eta": Spectrum.of([400, 450, 500, 550, 600, 650, 700], [1.66, 1.51, 0.97, 0.43, 0.25, 0.17, 0.16]),
+    "k": Spectrum.of([400, 450, 500, 550, 600, 650, 700], [1.96, 1.88, 1.87, 2.46, 2.99, 3.45, 3.81]),
+}
 PIXELS = 8
 _INDICES = {"intIOR": 1.5, "extIOR": 1.0}
 
@@ -24,6 +29,7 @@ MATERIALS = {
         "alphaV": 0.15,
         "variant": "ward",
     },
+    "metal": {**GOLD, "roughness": 0.15},
     "mirror": {"specularReflectance": PALE},
     "plastic": {**_INDICES, "diffuseReflectance": BLUE},
     "roughplastic": {**_INDICES, "diffuseReflectance": GREEN, "roughness": 0.2},

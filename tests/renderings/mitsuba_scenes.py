@@ -103,6 +103,17 @@ def picture(one, folder, threads=1, report=lambda fraction: None, name="scene"):
     return renderer().render(native, RenderOptions(threads), report)
 
 
+def kernels(one, folder, name):
+    """Return how many kernels a rendering ran, and how many it had to compile."""
+    import drjit as dr
+
+    with dr.scoped_set_flag(dr.JitFlag.KernelHistory, True):
+        dr.kernel_history_clear()
+        picture(one, folder, name=name)
+        ran = [entry for entry in dr.kernel_history() if entry["type"] == dr.KernelType.JIT]
+    return len(ran), sum(not entry["cache_hit"] for entry in ran)
+
+
 def mean_and_error(image):
     """Return the mean over the pixels and its standard error, a number for each band."""
     pixels = image.radiance.reshape(-1, image.radiance.shape[2]).astype(float)

@@ -25,6 +25,7 @@ from tests.renderings.mitsuba_scenes import (
     assert_within_noise,
     at,
     globe,
+    kernels,
     lamp,
     picture,
     scene,
@@ -130,17 +131,6 @@ def test_passes_add_up_to_the_same_picture_within_noise(tmp_path):
     )
     error = few.std(axis=0, ddof=1).mean()
     assert np.abs(many - few.mean(axis=0)).mean() < 1.5 * error
-
-
-def kernels(one, folder, name):
-    """Return how many kernels a rendering ran, and how many it had to compile."""
-    import drjit as dr
-
-    with dr.scoped_set_flag(dr.JitFlag.KernelHistory, True):
-        dr.kernel_history_clear()
-        picture(one, folder, name=name)
-        ran = [entry for entry in dr.kernel_history() if entry["type"] == dr.KernelType.JIT]
-    return len(ran), sum(not entry["cache_hit"] for entry in ran)
 
 
 def test_other_spectra_lamps_and_cameras_never_recompile_anything(tmp_path):

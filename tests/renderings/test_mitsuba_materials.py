@@ -9,14 +9,16 @@ import pytest
 from rtb_addon.renderers.interface import RenderOptions
 from rtb_addon.renderers.mitsuba import llvm, renderer, session
 from rtb_addon.renderers.mitsuba.ward import VARIANTS
-from rtb_addon.scene.render_scene import Material
+from rtb_addon.scene.render_scene import Camera, Material
 from rtb_addon.spectra import Spectrum
+from tests.renderings import materials_scene
 from tests.renderings.materials_scene import LAMPS, MATERIALS, of, row
 from tests.renderings.mitsuba_scenes import (
     BANDS,
     INTENSITY,
     REFLECTANCE,
     assert_within_noise,
+    kernels,
     lamp,
     picture,
     scene,
@@ -67,6 +69,8 @@ def test_a_material_is_what_stock_mitsubas_spectral_film_shows(both, name, light
 def white(model, parameters):
     # Ward's two reflectances share the light.
     spectrum = WHITE.scaled(0.5) if model == "anisoward" else WHITE
+    if model == "metal":
+        return {**parameters, "eta": Spectrum.constant(0.0), "k": WHITE}
     return {name: spectrum if isinstance(value, Spectrum) else value for name, value in parameters.items()}
 
 
@@ -83,6 +87,33 @@ def test_no_material_gives_more_light_than_it_gets(tmp_path):
         assert 0.8 < blocks.min() <= blocks.max() < 1.005, name
 
 
+def other(name, value):
+    """Return another spectrum or number that a material may have instead."""
+    if isinstance(value, Spectrum):
+        return Spectrum(value.wavelengths + 7, value.values * 0.8 + 0.05)
+    # Mitsuba compiles an index of refraction into its kernels.
+    return 0.9 * value if isinstance(value, float) and not name.endswith("IOR") else value
+
+
+def test_other_spectra_and_other_numbers_of_materials_never_recompile_anything(tmp_path):
+    picture(row(), tmp_path)
+    for sort in (Spectrum, float):
+        changed = {
+            model: {
+                name: other(name, value) if isinstance(value, sort) else value
+                for name, value in parameters.items()
+            }
+            for model, parameters in MATERIALS.items()
+        }
+        ran, compiled = kernels(row(materials=changed), tmp_path, "changed")
+        assert (ran > 0, compiled) == (True, 0), sort
+
+
+def test_one_thread_gives_the_same_bits_again(tmp_path):
+    first, again = (picture(row(samples=64), tmp_path, name=name).radiance for name in ("first", "again"))
+    assert np.array_equal(first, again)
+
+
 def of_paint(model, **parameters):
     """Return a floor of a material, seen from above under an even sky."""
     one = scene(environment=SKY, samples=1024, depth=4)
@@ -93,6 +124,60 @@ def of_paint(model, **parameters):
 def test_a_mirror_shows_the_sky_times_its_reflectance(tmp_path):
     image = picture(of_paint("mirror", specularReflectance=REFLECTANCE), tmp_path)
     np.testing.assert_allclose(image.radiance[0, 0], PAINTED * SHINING, rtol=1e-5)
+
+
+RHODIUM = {
+    "eta": Spectrum.of([400, 500, 600, 700], [1.41, 1.83, 2.12, 2.3]),
+    "k": Spectrum.of([400, 500, 600, 700], [4.2, 4.9, 5.5, 6.1]),
+}
+METALS = {"gold": materials_scene.GOLD, "rhodium": RHODIUM}
+
+
+def reflected(metal, degrees=0.0):
+    """Return what a metal reflects in each band, by Fresnel's law in complex numbers."""
+    index = metal["eta"].in_bands(BANDS) + 1j * metal["k"].in_bands(BANDS)
+    cosine = np.cos(np.radians(degrees))
+    inside = np.sqrt(1 - (1 - cosine**2) / index**2)
+    s = (cosine - index * inside) / (cosine + index * inside)
+    p = (index * cosine - inside) / (index * cosine + inside)
+    return (abs(s) ** 2 + abs(p) ** 2) / 2
+
+
+def seen_from(degrees):
+    angle = np.radians(degrees)
+    turn = np.eye(4)
+    turn[1:3, 1:3] = [[np.cos(angle), -np.sin(angle)], [np.sin(angle), np.cos(angle)]]
+    turn[:3, 3] = 3 * turn[:3, 2]
+    return Camera("Camera", "perspective", turn, (-1e-5, 1e-5, -1e-5, 1e-5))
+
+
+@pytest.mark.parametrize("name", METALS)
+@pytest.mark.parametrize("degrees", [0, 50, 80])
+def test_a_smooth_metal_reflects_what_fresnels_law_says_of_each_bands_index(tmp_path, name, degrees):
+    one = replace(of_paint("metal", **METALS[name], roughness=0.0), camera=seen_from(degrees))
+    expected = reflected(METALS[name], degrees) * SHINING
+    np.testing.assert_allclose(picture(one, tmp_path).radiance[0, 0], expected, rtol=1e-4)
+    if degrees == 0:
+        n, k = (METALS[name][part].in_bands(BANDS) for part in ("eta", "k"))
+        np.testing.assert_allclose(expected / SHINING, ((n - 1) ** 2 + k**2) / ((n + 1) ** 2 + k**2))
+
+
+def test_a_hardly_rough_metal_is_nearly_a_smooth_one(tmp_path):
+    image = picture(of_paint("metal", **RHODIUM, roughness=0.01), tmp_path)
+    np.testing.assert_allclose(image.radiance.mean(axis=(0, 1)), reflected(RHODIUM) * SHINING, rtol=3e-3)
+
+
+def test_two_metals_and_a_paint_are_blended_each_with_its_own_law(tmp_path):
+    one = of_paint("blend", materialID="alloy", otherMaterialID="matte", weight=0.25)
+    parts = {
+        "alloy": ("blend", {"materialID": "gold", "otherMaterialID": "rhodium", "weight": 0.6}),
+        "matte": ("matte", {"diffuseReflectance": REFLECTANCE}),
+        **{name: ("metal", {**metal, "roughness": 0.0}) for name, metal in METALS.items()},
+    }
+    made = {name: Material(name, *said) for name, said in parts.items()}
+    one = replace(one, materials={**one.materials, **made}, camera=seen_from(60))
+    alloy = 0.4 * reflected(METALS["gold"], 60) + 0.6 * reflected(RHODIUM, 60)
+    assert_within_noise(picture(one, tmp_path), (0.75 * alloy + 0.25 * PAINTED) * SHINING)
 
 
 @pytest.mark.parametrize("index", [1.2, 1.5, 2.0])

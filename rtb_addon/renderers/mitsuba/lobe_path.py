@@ -68,15 +68,10 @@ def path_radiance(scene, tables: Tables, sampler, ray, depth) -> list:
         row = tables.emitter_row(found.emitter, lit)
         glow = dr.select(lit, scalar * share * weight.x * tables.beam(row, -found.d, lit), 0)
         emission = tables.emission(row, lit)
-        if dr.hint(tables.lobes == 1, mode="scalar"):
-            spectral = _times(spectral, tables.reflectance(bsdf, 0, going))
-            radiance = _add(radiance, spectral, emission, glow * value.x)
-            scalar *= onward.x
-        else:
-            lobes = [tables.reflectance(bsdf, k, going) for k in range(tables.lobes)]
-            radiance = _add(radiance, _times(spectral, _mix(lobes, value)), emission, glow)
-            spectral = _times(spectral, _mix(lobes, onward))
-            scalar = dr.select(dr.any(onward != 0), scalar, 0)
+        seen_lit, spectral, scalar, glow = scatter(
+            tables, spectral, scalar, (bsdf, si.wi, going), (towards, value, glow), (turn.wo, onward)
+        )
+        radiance = _add(radiance, seen_lit, emission, glow)
 
         ray = si.spawn_ray(si.to_world(turn.wo))
         before = dr.detach(si, True)
@@ -103,6 +98,42 @@ def sample_light(scene, tables, sampler, si, active):
     found.p = dr.select(sun, si.p + aimed * found.dist, found.p)
     hidden = scene.ray_test(si.spawn_ray_to(found.p), active & (found.pdf != 0))
     return found, dr.select(hidden, 0, weight)
+
+
+def scatter(tables, spectral, scalar, at, lit, turned):
+    """
+    Return the throughput towards a light, band by band, the two parts of that onward, and the light's weight.
+
+    Parameters
+    ----------
+    at : the materials, the directions that light leaves in, and which of them count
+    lit : directions to the light, the coefficients of the lobes there, and its weight so far
+    turned : directions of the paths, and the coefficients of the lobes there
+    """
+    (bsdf, wi, active), (towards, value, glow), (wo, onward) = at, lit, turned
+    row = tables.material_row(bsdf, active)
+    lobes = [tables.reflectance(row, k, active) for k in range(tables.lobes)]
+    there = _with_metals(tables, lobes, row, dr.dot(wi, towards), active)
+    ahead = _with_metals(tables, lobes, row, dr.dot(wi, wo), active)
+    if tables.lobes == 1:
+        spectral_lit = _times(spectral, there[0])
+        spectral = spectral_lit if tables.metals == 0 else _times(spectral, ahead[0])
+        return spectral_lit, spectral, scalar * onward.x, glow * value.x
+    spectral_lit = _times(spectral, _mix(there, value))
+    going = dr.any(onward != 0)
+    return spectral_lit, _times(spectral, _mix(ahead, onward)), dr.select(going, scalar, 0), glow
+
+
+def _with_metals(tables, lobes, row, cosine, active):
+    """Return the spectra of lobes, those of metals times what they reflect between two directions."""
+    if tables.metals == 0:
+        return lobes
+    # Of half the angle between the directions.
+    cosine = dr.sqrt(dr.maximum((1 + cosine) / 2, 0))
+    return [
+        _times(spectrum, tables.fresnel(row, k, cosine, active)) if k < tables.metals else spectrum
+        for k, spectrum in enumerate(lobes)
+    ]
 
 
 def _add_suns(tables, ray, radiance, spectral, weight):

@@ -4,6 +4,10 @@ The spectra of materials, taken out of a native scene: what is left are one-hot 
 A material's first spectrum becomes the colour (1, 0, 0), its second (0, 1, 0), its third (0, 0, 1): what
 Mitsuba then computes are the coefficients of these spectra, its lobes, the same for every band and exactly
 linear. Spectra that are the same share a lobe.
+
+What a metal reflects is not linear in its index of refraction, but Fresnel's law needs nothing but that index
+and the angle between two directions: a lobe of a metal has the coefficient of a perfect conductor, which
+reflects everything, and the lobe path multiplies it by what each band's index reflects at that angle.
 """
 
 from __future__ import annotations
@@ -24,6 +28,7 @@ _LINEAR: Mapping[str, Mapping[str, float]] = {
     "diffuse": {"reflectance": 0.5},
     "ward": {"diffuse_reflectance": 0.5, "specular_reflectance": 0.2},
     "conductor": {"specular_reflectance": 1.0},
+    "roughconductor": {"specular_reflectance": 1.0},
     "plastic": {"diffuse_reflectance": 0.5, "specular_reflectance": 1.0},
     "roughplastic": {"diffuse_reflectance": 0.5, "specular_reflectance": 1.0},
     "twosided": {},
@@ -40,9 +45,11 @@ class Lobe:
     Parameters
     ----------
     reflectance : the spectrum
+    index : eta and k of a metal, or None
     """
 
     reflectance: Spectrum
+    index: tuple[Spectrum, Spectrum] | None = None
 
 
 def take_lobes(root: Xml.Element) -> dict[str, list[Lobe]]:
@@ -74,15 +81,20 @@ def _take(id: str, material: Xml.Element) -> list[Lobe]:
             _open(node)
         if node.get("type") == "blendbsdf":
             _name_parts(node)
-    found: dict[bytes, Lobe] = {}
+    metals = {node: _take_index(id, node) for node in material.iter("bsdf")}
+    found: dict[tuple, Lobe] = {}
     places = []
     for parent, index, child in _spectra(id, material):
-        key = _content(child)
-        found.setdefault(key, Lobe(parse_spectrum(child)))
+        key = _content(child), *map(_content, metals.get(parent, ()))
+        eta_and_k = [parse_spectrum(node) for node in metals.get(parent, ())]
+        found.setdefault(
+            key, Lobe(parse_spectrum(child), (eta_and_k[0], eta_and_k[1]) if eta_and_k else None)
+        )
         places.append((parent, index, child.get("name", ""), key))
     if not 1 <= len(found) <= MOST_LOBES:
         raise RenderingError(f"the native scene's {id} has {len(found)} spectra, give it 1 to {MOST_LOBES}")
-    order = list(found)
+    # Metals come first, so that few lobes have to be asked for their index.
+    order = sorted(found, key=lambda key: found[key].index is None)
     for parent, index, name, key in places:
         parent[index] = one_hot_colour(name, order.index(key))
     return [found[key] for key in order]
@@ -97,6 +109,23 @@ def _complete(id: str, node: Xml.Element) -> None:
     for name, value in _LINEAR[kind].items():
         if name not in there:
             node.append(element("spectrum", "uniform", name=name, value=value))
+
+
+def _take_index(id: str, node: Xml.Element) -> tuple[Xml.Element, ...]:
+    """Make a metal a perfect conductor, and return the elements of its eta and k; none of other materials."""
+    found = {child.get("name"): child for child in node if child.get("name") in ("eta", "k", "material")}
+    if "conductor" not in node.get("type", "") or "material" in found:
+        if "material" in found and found["material"].get("value") != "none":
+            raise RenderingError(f"the native scene's {id} names its metal, write eta and k as spectra")
+        return ()
+    try:
+        taken = found["eta"], found["k"]
+    except KeyError as missing:
+        raise RenderingError(f"the native scene's {id} has no {missing.args[0]}, write a spectrum") from None
+    for child in taken:
+        node.remove(child)
+    node.append(Xml.Element("string", name="material", value="none"))
+    return taken
 
 
 def _open(mask: Xml.Element) -> None:

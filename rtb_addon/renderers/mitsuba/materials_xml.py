@@ -85,6 +85,15 @@ def _mirror(one: Material, span: Span) -> Xml.Element:
     return node
 
 
+def _metal(one: Material, span: Span) -> Xml.Element:
+    alpha = number(one, "roughness", 0, 10)
+    rough: dict[str, Any] = {"distribution": "beckmann", "alpha": alpha} if alpha else {}
+    node = element("bsdf", "roughconductor" if alpha else "conductor", **rough)
+    node.extend([_colour(one, name, name, span) for name in ("eta", "k")])
+    node.append(format_spectrum("specular_reflectance", _WHITE, span))
+    return node
+
+
 def _plastic(one: Material, span: Span) -> Xml.Element:
     # A rough surface without roughness is a smooth one, which Mitsuba has another plugin for.
     alpha = number(one, "roughness", 0, 10) if one.model == "roughplastic" else 0.0
@@ -109,6 +118,7 @@ def _ward(one: Material, span: Span) -> Xml.Element:
 _SURFACES = {
     "matte": _matte,
     "anisoward": _ward,
+    "metal": _metal,
     "mirror": _mirror,
     "plastic": _plastic,
     "roughplastic": _plastic,

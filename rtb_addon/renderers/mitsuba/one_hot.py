@@ -63,6 +63,12 @@ class OneHotScene:
         """Most lobes that a material has."""
         return max((len(lobes) for lobes in self.materials.values()), default=1)
 
+    @property
+    def metals(self) -> int:
+        """Most lobes of metals that a material has; they are its first."""
+        counts = (sum(lobe.index is not None for lobe in lobes) for lobes in self.materials.values())
+        return max(counts, default=0)
+
 
 def one_hot(native: Native) -> OneHotScene:
     """Return a native scene ready for the lobe path."""

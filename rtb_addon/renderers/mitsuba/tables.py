@@ -13,9 +13,11 @@ import drjit as dr
 import mitsuba as mi
 import numpy as np
 
-from ...spectra import BandKind, Bands, FloatArray
+from ...spectra import BandKind, Bands, FloatArray, Spectrum
+from .lobes import Lobe
 from .one_hot import Emitter, OneHotScene
 
+_NO_METAL = Lobe(Spectrum.constant(1.0))
 # A spectrum's row is fetched four numbers at a time.
 _PACKET = 4
 # An edge without a transition is this steep [1 / difference of cosines].
@@ -30,13 +32,14 @@ class Tables:
     ----------
     padded_bands : number of bands, rounded up to whole packets; the rest are zero
     lobes : most spectra that a material has
+    metals : most lobes of metals that a material has; they are its first
     beams : whether some emitter is a spot
     suns : number of emitters that are discs in the sky
     """
 
     def __init__(self, scene, source: OneHotScene, bands: Bands, kind: BandKind) -> None:
         self.padded_bands = -len(bands) % _PACKET + len(bands)
-        self.lobes = source.lobes
+        self.lobes, self.metals = source.lobes, source.metals
         emitters = list(source.emitters.values())
         self.beams = any(emitter.outer > -2 for emitter in emitters)
         self.suns = sum(emitter.narrowness > 0 for emitter in emitters)
@@ -57,10 +60,18 @@ class Tables:
             [in_bands(lobes[k].reflectance) if k < len(lobes) else black for k in range(self.lobes)]
             for lobes in source.materials.values()
         ]
+        # Eta and k of 0 stand for what is no metal.
+        indices = [
+            [[in_bands(part) for part in lobe.index] if lobe.index else [black, black] for lobe in lobes]
+            for lobes in (
+                [*lobes, *[_NO_METAL] * self.metals][: self.metals] for lobes in source.materials.values()
+            )
+        ]
         # Light sampling aims anywhere in a disc: irradiance becomes radiance times solid angle.
         gains = [2 / (2 - emitter.narrowness) for emitter in emitters]
         glows = [in_bands(emitter.spectrum) * gain for emitter, gain in zip(emitters, gains, strict=True)]
         self._reflectances = _table(rows)
+        self._indices = _table(indices)
         self._emissions = _table(glows)
         self._beams = _table([[*e.axis, e.outer, _steepness(e), e.narrowness, 0.0, 0.0] for e in emitters])
         suns = [(e, glow) for e, glow in zip(emitters, glows, strict=True) if e.narrowness > 0]
@@ -76,10 +87,19 @@ class Tables:
         """Return an emitter's spectrum, one mi.Float a band."""
         return self._bands(self._emissions, row, active)
 
-    def reflectance(self, bsdf, lobe: int, active) -> list:
+    def material_row(self, bsdf, active) -> Any:
+        """Return the row of each material."""
+        return dr.gather(mi.UInt32, self._bsdf_rows, _number(bsdf), active)
+
+    def reflectance(self, row, lobe: int, active) -> list:
         """Return the spectrum of a material's lobe, one mi.Float a band."""
-        row = dr.gather(mi.UInt32, self._bsdf_rows, _number(bsdf), active)
         return self._bands(self._reflectances, row * self.lobes + lobe, active)
+
+    def fresnel(self, row, lobe: int, cosine, active) -> list:
+        """Return what a metal's lobe reflects at an angle, one mi.Float a band; 1 where it is no metal's."""
+        place = (row * self.metals + lobe) * 2
+        eta, k = (self._bands(self._indices, place + part, active) for part in range(2))
+        return [_fresnel(cosine, *index) for index in zip(eta, k, strict=True)]
 
     def beam(self, row, direction, active):
         """Return how much of a spot's intensity goes in a direction from it: Blender's smooth step."""
@@ -110,6 +130,12 @@ class Tables:
         packets = self.padded_bands // _PACKET
         found: list[Any] = [dr.gather(mi.Vector4f, table, row * packets + k, active) for k in range(packets)]
         return [packet[k] for packet in found for k in range(_PACKET)]
+
+
+def _fresnel(cosine, eta, k):
+    """Return the share of unpolarised light that a conductor reflects; everything where eta and k are 0."""
+    share: Any = mi.fresnel_conductor(cosine, mi.Complex2f(eta, k))  # pyright: ignore[reportCallIssue]
+    return dr.select(eta + k > 0, share, 1)
 
 
 def _steepness(emitter: Emitter) -> float:
