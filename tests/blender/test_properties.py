@@ -26,7 +26,7 @@ def tagged(scene, box, lamp, library):
     world.rtb.use_spectra, world.rtb.spectrum, world.rtb.amount = True, "A", 2.5
     body = shining.rtb
     body.emits, body.spectrum, body.emission, body.amount = True, "FL2", "watts", 12
-    library("blender").set_conditions(scene, ["imageName", "light", "paint"], ROWS)
+    scene.rtb.set_conditions(["imageName", "light", "paint"], ROWS)
     return scene
 
 
