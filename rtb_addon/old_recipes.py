@@ -21,6 +21,7 @@ from .recipe import CONDITIONS, Recipe, write_recipe
 from .recipe.named_files import texture_names
 from .recipe.options import Conventions, MontageOptions, RecipeOptions
 from .recipe.resources import leads_outside, listed
+from .scene.archives import is_archive, read_archive
 from .scene.document import Scene
 from .spectra.library import served
 
@@ -60,6 +61,10 @@ def import_recipe(
     """
     name = re.sub(r"[^\w .-]", "_", parent.stem).strip(" .") or "recipe"
     scene, table_text = _bytes_of(parent), _text_of(conditions)
+    packed: dict[str, bytes] = {}
+    if is_archive(scene):
+        archive = read_archive(scene, parent)
+        scene, packed = archive.scene, archive.beside_the_scene()
     mappings_text = DEFAULT_MAPPINGS if mappings is None else _text_of(mappings)
     table = (
         parse_conditions(table_text, conditions, name, old=True) if conditions else Conditions.single(name)
@@ -79,7 +84,7 @@ def import_recipe(
         scene,
         table,
         mappings_text,
-        {_target(each): file.read_bytes() for each, file in wanted.found.items()},
+        {**packed, **{_target(each): file.read_bytes() for each, file in wanted.found.items()}},
         {
             "imported from": [path.name for path in (parent, conditions, mappings) if path],
             "library version": records.library_version(),

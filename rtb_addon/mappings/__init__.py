@@ -19,6 +19,7 @@ from ..errors import RecipeError
 from ..scene.adjustments import Adjustments, Remark
 from .blocks import Block, format_blocks, parse_blocks
 from .changes import Change, format_changes, parse_changes
+from .default_mappings import default_mappings
 from .fill_blocks import fill_blocks
 from .fill_changes import fill_changes
 from .filling import Filling
@@ -28,6 +29,7 @@ if TYPE_CHECKING:
 
 __all__ = [
     "Mappings",
+    "default_mappings",
     "format_blocks",
     "format_changes",
     "format_mappings",

@@ -33,6 +33,15 @@ class Archive(NamedTuple):
     scene: bytes
     others: Mapping[str, bytes]
 
+    def beside_the_scene(self) -> dict[str, bytes]:
+        """Return the files that the scene may name, by their names seen from where it is."""
+        folder = PurePosixPath(self.name).parent
+        names = {name: PurePosixPath(name) for name in self.others if name != _MANIFEST}
+        return {
+            str(path.relative_to(folder) if path.is_relative_to(folder) else path): self.others[name]
+            for name, path in names.items()
+        }
+
 
 def is_archive(data: bytes) -> bool:
     """Return whether some bytes are a zip."""

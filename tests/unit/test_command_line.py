@@ -5,6 +5,7 @@ import subprocess
 import sys
 import tempfile
 import time
+import zipfile
 from pathlib import Path
 
 import pytest
@@ -230,6 +231,18 @@ def test_import_takes_rendertoolbox4s_json_and_leaves_out_rows_of_another_length
     assert [row.name for row in recipe.conditions] == ["a"]
     assert len(recipe.mappings.changes) == 2
     assert not (recipe.folder / "mappings.txt").exists()
+
+
+def test_import_unpacks_a_zae_with_what_its_scene_names(tmp_path, run, old_recipe):
+    with zipfile.ZipFile(tmp_path / "room.zae", "w") as archive:
+        archive.writestr("manifest.xml", "<dae_root>inner/room.dae</dae_root>")
+        archive.write(old_recipe[0], "inner/room.dae")
+        archive.writestr("inner/images/wood.png", "wood")
+    status, _, _ = run("import", tmp_path / "room.zae", "--output", tmp_path / "new")
+    recipe = Recipe.load(tmp_path / "new")
+    assert status == 0
+    assert (recipe.folder / "parent.dae").read_bytes() == old_recipe[0].read_bytes()
+    assert recipe.find_file("./images/wood.png").read_text() == "wood"
 
 
 def test_import_reads_nothing_outside_the_named_folders(tmp_path, run, old_recipe):
