@@ -19,6 +19,7 @@ GOLD = {
 }
 PIXELS = 8
 _INDICES = {"intIOR": 1.5, "extIOR": 1.0}
+_TINTS = {"specularReflectance": PALE, "specularTransmittance": GREEN}
 
 MATERIALS = {
     "matte": {"diffuseReflectance": RED},
@@ -33,6 +34,9 @@ MATERIALS = {
     "mirror": {"specularReflectance": PALE},
     "plastic": {**_INDICES, "diffuseReflectance": BLUE},
     "roughplastic": {**_INDICES, "diffuseReflectance": GREEN, "roughness": 0.2},
+    "glass": {**_INDICES, **_TINTS},
+    "thinglass": {**_INDICES, **_TINTS},
+    "roughglass": {**_INDICES, **_TINTS, "roughness": 0.25},
     "blend": {"materialID": "matte", "otherMaterialID": "roughplastic", "weight": 0.3},
     "mask": {"materialID": "plastic", "opacity": 0.6},
 }

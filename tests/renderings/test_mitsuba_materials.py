@@ -6,22 +6,26 @@ from functools import cache
 import numpy as np
 import pytest
 
+from rtb_addon.errors import RecipeError
 from rtb_addon.renderers.interface import RenderOptions
 from rtb_addon.renderers.mitsuba import llvm, renderer, session
 from rtb_addon.renderers.mitsuba.ward import VARIANTS
-from rtb_addon.scene.render_scene import Camera, Material
+from rtb_addon.scene.render_scene import Camera, Material, Shape
 from rtb_addon.spectra import Spectrum
 from tests.renderings import materials_scene
 from tests.renderings.materials_scene import LAMPS, MATERIALS, of, row
 from tests.renderings.mitsuba_scenes import (
     BANDS,
+    FULL_TURN,
     INTENSITY,
     REFLECTANCE,
     assert_within_noise,
+    at,
     kernels,
     lamp,
     picture,
     scene,
+    square,
 )
 from tests.renderings.noise import CHANCE, error_of_mean, in_blocks, least_probability
 
@@ -29,6 +33,7 @@ SKY = lamp("environment", filename="")
 SHINING = INTENSITY.in_bands(BANDS)
 PAINTED = REFLECTANCE.in_bands(BANDS)
 WHITE = Spectrum.constant(1.0)
+GREY = Spectrum.constant(0.7)
 AIR = {"intIOR": 1.5, "extIOR": 1.0}
 
 
@@ -193,6 +198,53 @@ def test_plastic_without_roughness_is_smooth(tmp_path):
     smooth = of_paint("plastic", **AIR, diffuseReflectance=REFLECTANCE)
     first, second = (picture(one, tmp_path).radiance for one in (rough, smooth))
     assert np.array_equal(first, second)
+
+
+def slab(one):
+    """Return a plate of tinted glass, seen from above under an even sky."""
+    lower = Shape("Below", square(50), at(0, 0, -0.5, FULL_TURN), "paint")
+    return replace(one, shapes=(*one.shapes, lower), integrator=replace(one.integrator, depth=30))
+
+
+@pytest.mark.parametrize("index", [1.3, 1.8])
+def test_a_plate_of_glass_reflects_and_transmits_what_its_two_faces_sum_up_to(tmp_path, index):
+    tints = {"specularReflectance": GREY, "specularTransmittance": REFLECTANCE}
+    one = slab(of_paint("glass", intIOR=index, extIOR=1.0, **tints))
+    f, r, t = ((index - 1) / (index + 1)) ** 2, 0.7, PAINTED
+    # Light goes to and fro between the faces.
+    inside = (1 - f) ** 2 * t**2 / (1 - (f * r) ** 2)
+    assert_within_noise(picture(one, tmp_path), (f * r + inside * f * r + inside) * SHINING)
+
+
+@pytest.mark.parametrize("model", ["glass", "roughglass"])
+def test_light_is_condensed_in_glass_by_the_square_of_its_index(tmp_path, model):
+    rough = {"roughness": 0.0} if model == "roughglass" else {}
+    clear = {"specularReflectance": WHITE, "specularTransmittance": WHITE}
+    image = picture(of_paint(model, **AIR, **rough, **clear), tmp_path)
+    # Below the only face, glass has no end.
+    assert_within_noise(image, (0.04 + 0.96 / 1.5**2) * SHINING)
+
+
+def test_a_hardly_rough_plate_is_nearly_a_smooth_one(tmp_path):
+    clear = {"specularReflectance": GREY, "specularTransmittance": REFLECTANCE}
+    smooth, rough = (
+        picture(slab(of_paint(model, **AIR, **clear, **more)), tmp_path).radiance.mean(axis=(0, 1))
+        for model, more in [("glass", {}), ("roughglass", {"roughness": 0.01})]
+    )
+    np.testing.assert_allclose(rough, smooth, rtol=4e-3)
+
+
+def test_thin_glass_reflects_on_both_faces_and_bends_nothing(tmp_path):
+    tints = {"specularReflectance": GREY, "specularTransmittance": REFLECTANCE}
+    image = picture(of_paint("thinglass", **AIR, **tints), tmp_path)
+    reflects = 2 * 0.04 / 1.04
+    assert_within_noise(image, (reflects * 0.7 + (1 - reflects) * PAINTED) * SHINING)
+
+
+def test_rough_glass_without_a_difference_of_indices_is_refused(tmp_path):
+    same = {"intIOR": 1.5, "extIOR": 1.5, "specularReflectance": WHITE, "specularTransmittance": WHITE}
+    with pytest.raises(RecipeError, match="the same index inside and outside"):
+        renderer().translate(of_paint("roughglass", **same, roughness=0.1), (), tmp_path, "same")
 
 
 def made_of(model, **parameters):

@@ -18,6 +18,8 @@ Span = tuple[float, float]
 # What other materials a material is made of, in the order in which Mitsuba wants them.
 _PARTS = {"blend": ("materialID", "otherMaterialID"), "mask": ("materialID",)}
 _WHITE = Spectrum.constant(1.0)
+_SMOOTH = "dielectric"
+_GLASSES = {"glass": _SMOOTH, "thinglass": "thindielectric", "roughglass": "roughdielectric"}
 _BLENDED = "{} is shown too dark by stock Mitsuba 3.9 where it blends a mirror with something that is none"
 _REMARKS = {"anisoward": "{} needs a plugin of ours, rtb_addon.renderers.mitsuba.plugins registers it"}
 
@@ -50,9 +52,11 @@ def _material(one: Material, names: Names, span: Span) -> list[Xml.Element]:
     place = names.known("material", one.id, "the scene")
     if one.model in _PARTS:
         return _composed(one, place, names)
+    if one.model in _GLASSES:
+        return [_glass(one, place, span)]
     make = _SURFACES.get(one.model)
     if make is None:
-        known = ", ".join([*_SURFACES, *_PARTS])
+        known = ", ".join([*_SURFACES, *_GLASSES, *_PARTS])
         raise RecipeError(f"Mitsuba renders no {one.model} yet, make material {one.id} one of {known}")
     inner = make(one, span)
     both = element("bsdf", "twosided", id=place)
@@ -123,6 +127,19 @@ _SURFACES = {
     "plastic": _plastic,
     "roughplastic": _plastic,
 }
+
+
+def _glass(one: Material, place: str, span: Span) -> Xml.Element:
+    alpha = number(one, "roughness", 0, 10) if one.model == "roughglass" else 0.0
+    rough: dict[str, Any] = {"distribution": "beckmann", "alpha": alpha} if alpha else {}
+    kind = _SMOOTH if one.model == "roughglass" and not alpha else _GLASSES[one.model]
+    indices = _indices(one)
+    if alpha and indices["int_ior"] == indices["ext_ior"]:
+        raise RecipeError(f"material {one.id} has the same index inside and outside, give it two that differ")
+    node = element("bsdf", kind, id=place, **indices, **rough)
+    node.append(_colour(one, "specularReflectance", "specular_reflectance", span))
+    node.append(_colour(one, "specularTransmittance", "specular_transmittance", span))
+    return node
 
 
 def number(one: Material, name: str, low: float, high: float) -> float:
