@@ -6,7 +6,7 @@ from collections.abc import Iterable, Mapping
 from dataclasses import dataclass, replace
 
 from ..errors import RecipeError, choices
-from .adjustments import NeutralObject, Property
+from .adjustments import NeutralObject, Property, Remark
 from .render_scene import Value
 from .values import Values
 from .vocabulary import CATEGORIES, Parameter
@@ -56,6 +56,7 @@ def declarations(objects: Iterable[NeutralObject], values: Values) -> dict[str, 
         if each.category:
             _refuse_unknown(each)
             declared = Declaration(each.id, each.category, each.model, {}, each.file, each.line)
+            values.warnings.extend(_forgotten(each, found.get(each.id)))
         elif each.id in found:
             declared = found[each.id]
         else:
@@ -84,6 +85,15 @@ def parameters_of(
         else:
             raise declared.error(f"{declared.id} must say its {name}, {declared.model} has no default for it")
     return chosen
+
+
+def _forgotten(each: NeutralObject, before: Declaration | None) -> Iterable[str]:
+    """Yield what to say where a declaration takes back what an earlier one said."""
+    again = {said.name for said in each.properties}
+    lost = [name for name in before.said if name not in again and name in before.parameters] if before else []
+    if before and lost:
+        message = f"{each.id} is declared again, so {', '.join(lost)} of line {before.line} no longer counts"
+        yield str(Remark(message, each.file, each.line))
 
 
 def _refuse_unknown(each: NeutralObject) -> None:

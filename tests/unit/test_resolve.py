@@ -507,6 +507,9 @@ def test_declaring_again_begins_anew_and_configuring_again_does_not():
 
     assert alphas(first + more) == (0.25, 0.3)
     assert alphas(first + anew) == (0.1, 0.3)
+    said = "mappings.txt:6: Paint-material is declared again, so alphaU of line 2 no longer counts"
+    assert said in resolved(room(), first + anew).warnings
+    assert not any("declared again" in each for each in resolved(room(), first + more).warnings)
 
 
 @pytest.mark.parametrize("text", ["paint.spd", "300:0.25 800:0.75"])
