@@ -3,6 +3,7 @@ The scene as it renders: modifiers, visibility, instances and animation as Blend
 
 Only a render engine is shown a scene in that state; so, for a moment, there is one that looks and renders
 nothing. It works on a copy of the scene (which shares all objects), hence changes nothing that is kept.
+Render handlers of other add-ons see a render go by.
 """
 
 from __future__ import annotations
@@ -11,6 +12,8 @@ from collections.abc import Callable
 from typing import TypeVar
 
 import bpy
+
+from ..errors import RecipeError
 
 _ENGINE = "RTB_LOOK"
 _Found = TypeVar("_Found")
@@ -27,12 +30,20 @@ def as_rendered(scene, read: Callable[[bpy.types.Depsgraph], _Found]) -> _Found:
     try:
         _render_little(copy)
         bpy.ops.render.render(scene=copy.name, layer=_view_layer(scene).name)
+    except RuntimeError as error:
+        raise RecipeError(f"Blender cannot evaluate the scene {scene.name}: {_one_line(error)}") from error
     finally:
         bpy.data.scenes.remove(copy)
         bpy.utils.unregister_class(engine)
     if errors:
         raise errors[0]
+    if not found:
+        raise RecipeError(f"Blender is rendering, read the scene {scene.name} when that is done")
     return found[0]
+
+
+def _one_line(error: Exception) -> str:
+    return " ".join(str(error).removeprefix("Error: ").split()).rstrip(".")
 
 
 def _engine(read: Callable, found: list, errors: list) -> type:

@@ -12,6 +12,8 @@ from __future__ import annotations
 import math
 from collections.abc import Iterator
 
+from .nodes import has_nodes
+
 # Lamps' numbers that mean nothing physical, and what they must be.
 _FACTORS = ("diffuse_factor", "specular_factor", "transmission_factor", "volume_factor")
 
@@ -92,7 +94,7 @@ def unsupported(light) -> Iterator[str]:
 
 def has_own_nodes(light) -> bool:
     """Return whether a lamp's nodes do more than pass its power on."""
-    if not light.use_nodes or light.node_tree is None:
+    if not has_nodes(light):
         return False
     nodes = [node for node in light.node_tree.nodes if node.type not in ("OUTPUT_LIGHT", "FRAME", "REROUTE")]
     return not all(node.type == "EMISSION" and _is_plain(node) for node in nodes)

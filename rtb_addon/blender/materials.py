@@ -2,11 +2,12 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterator
 from dataclasses import dataclass
 
 from .colours import linear_rec709
 from .folders import typed
-from .nodes import colour_of_material
+from .nodes import Found, colour_of_material, glows
 from .statements import Spoken, Statement
 
 # What lamps with a surface are made of.
@@ -47,11 +48,19 @@ def read_material(material) -> Paint:
     name, settings = material.name_full, material.rtb
     found = colour_of_material(material)
     colour = linear_rec709(found.colour)
-    if settings.use_spectra:
-        text = typed(settings.reflectance, material)
-        return Paint(name, colour, settings.model, Spoken(text, f"the material {name}"))
-    shown = " ".join(f"{component:.3g}" for component in colour)
-    remark = f"the material {name} has no spectrum: its {found.place} {shown} is promoted to one, and matte"
-    if found.textured:
-        remark += "; the texture in its place is not read"
-    return Paint(name, colour, remarks=(remark,))
+    remarks = tuple(_remarks(material, found, colour))
+    if not settings.use_spectra:
+        return Paint(name, colour, remarks=remarks)
+    reflectance = Spoken(typed(settings.reflectance, material), f"the material {name}")
+    return Paint(name, colour, settings.model, reflectance, remarks)
+
+
+def _remarks(material, found: Found, colour: tuple[float, float, float]) -> Iterator[str]:
+    name = f"the material {material.name_full}"
+    if not material.rtb.use_spectra:
+        shown = " ".join(f"{component:.3g}" for component in colour)
+        yield f"{name} has no spectrum: its {found.place} {shown} is promoted to one, and matte"
+        if found.textured:
+            yield f"{name} has a texture for its {found.place}, which is not read"
+    if glows(material):
+        yield f"{name} glows in Blender only: let its object emit to have it shine"

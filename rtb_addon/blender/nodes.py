@@ -5,6 +5,10 @@ from __future__ import annotations
 from typing import NamedTuple
 
 _COLOURED = {"BSDF_PRINCIPLED": "Base Color", "BSDF_DIFFUSE": "Color"}
+_GLOWING = {
+    "BSDF_PRINCIPLED": ("Emission Color", "Emission Strength"),
+    "EMISSION": ("Color", "Strength"),
+}
 _OUTPUTS = ("OUTPUT_MATERIAL", "OUTPUT_WORLD")
 
 
@@ -24,7 +28,7 @@ class Found(NamedTuple):
 
 def colour_of_material(material) -> Found:
     """Return the base colour of a material's principled or diffuse shader, else its viewport colour."""
-    if not material.use_nodes or material.node_tree is None:
+    if not has_nodes(material):
         return Found(_three(material.diffuse_color), "viewport colour")
     node = _surface_node(material.node_tree)
     if node is None or node.type not in _COLOURED:
@@ -33,9 +37,24 @@ def colour_of_material(material) -> Found:
     return Found(_three(socket.default_value), socket.name.lower(), socket.is_linked)
 
 
+def glows(material) -> bool:
+    """Return whether a material's nodes make it send out light of its own."""
+    node = _surface_node(material.node_tree) if has_nodes(material) else None
+    if node is None or node.type not in _GLOWING:
+        return False
+    colour, strength = (node.inputs[name] for name in _GLOWING[node.type])
+    linked = colour.is_linked or strength.is_linked
+    return linked or (strength.default_value > 0 and max(_three(colour.default_value)) > 0)
+
+
+def has_nodes(thing) -> bool:
+    """Return whether nodes say what a material, world or lamp does; in Blender 5 they always do."""
+    return getattr(thing, "use_nodes", True) and thing.node_tree is not None
+
+
 def is_black(world) -> bool:
     """Return whether Blender's world sends out no light."""
-    if not world.use_nodes or world.node_tree is None:
+    if not has_nodes(world):
         return max(world.color) <= 0
     node = _surface_node(world.node_tree)
     if node is None:

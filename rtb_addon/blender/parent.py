@@ -73,7 +73,7 @@ class ParentWriter:
         """Write a node, what it stands relative to first, and return its id."""
         if ("node", node.key) in self._ids:
             return self._ids["node", node.key]
-        above = self.seen.nodes.get(node.parent or "")
+        above = self._above(node)
         parent = None if above is None else self._node(above)
         local = node.to_world if above is None else np.linalg.solve(above.to_world, node.to_world)
         id = self._ids["node", node.key] = self.document.node(node.name, _placement(local, node.own), parent)
@@ -81,6 +81,13 @@ class ParentWriter:
         if fill is not None:
             fill(id, node)
         return id
+
+    def _above(self, node: Node) -> Node | None:
+        """Return what a node stands relative to: the nearest one above that is not scaled to nothing."""
+        above = self.seen.nodes.get(node.parent or "")
+        while above is not None and np.linalg.det(above.to_world) == 0:
+            above = self.seen.nodes.get(above.parent or "")
+        return above
 
     def _body(self, id: str, node: Node) -> None:
         """Write a surface, one geometry for each radiance that it has somewhere."""

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections import Counter
 from collections.abc import Mapping
 from dataclasses import dataclass
 from pathlib import Path
@@ -110,6 +111,8 @@ def _table(scene, name: str, parent: Parent) -> Table:
     """Return the scene's conditions; a camera among the cells is named by its id."""
     settings = scene.rtb
     variables = [each.name for each in settings.variables]
+    if twins := [each for each, count in Counter(variables).items() if count > 1 or not each.strip()]:
+        raise RecipeError(f"the variable '{twins[0]}' needs a name that no other one has")
     names, rows = [], []
     for number, condition in enumerate(settings.conditions, 1):
         names.append(condition.name.strip() or f"{name}-{number:03}")

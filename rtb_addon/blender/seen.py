@@ -31,6 +31,8 @@ _UNKNOWN = {
     "POINTCLOUD": "a point cloud",
     "GREASEPENCIL": "a drawing",
 }
+# Blender's switches that let only some rays see an object.
+_RAYS = ("visible_camera", "visible_diffuse", "visible_glossy", "visible_transmission", "visible_shadow")
 _SLOT = "slot"
 
 
@@ -184,6 +186,8 @@ def _body(seen: Seen, object_, override) -> dict:
             return {}
         slots = tuple(np.unique(surface.parts).tolist())
         seen.bodies[key] = Body(object_.original.data.name_full, surface, own, slots)
+    if not all(getattr(object_, name) for name in _RAYS):
+        seen.remarks.append(f"the object {object_.name_full} is visible to all light, not only to some rays")
     body = seen.bodies[key]
     materials = {slot: _material(seen, object_, slot, override) for slot in body.slots}
     return {"kind": "body", "content": key, "materials": materials, "emission": _emission(object_)}

@@ -6,7 +6,7 @@ import re
 from collections.abc import Callable, Iterable, Mapping, Sequence
 from pathlib import Path
 
-from ..conditions import Condition, Conditions
+from ..conditions import Condition, Conditions, format_conditions, parse_conditions
 from ..errors import RecipeError
 from ..scene.write_ids import clean
 from ..scene.write_numbers import shortest
@@ -65,7 +65,8 @@ class Table:
             Condition(name, {IMAGE_NAME: name, **cells})
             for name, cells in zip(self.names, self.cells, strict=True)
         ]
-        return Conditions((IMAGE_NAME, *self.variables), tuple(rows))
+        text = format_conditions(Conditions((IMAGE_NAME, *self.variables), tuple(rows)))
+        return parse_conditions(text, "the conditions", base)
 
     def column(self, spoken: Spoken, name: str, only_user: bool, fill: Callable[[str, str], str]) -> str:
         """

@@ -184,6 +184,21 @@ def test_instances_of_an_emitting_object_share_its_watts_by_their_own_area(still
     assert radiance == pytest.approx([1 / (4 * np.pi), 1 / np.pi], rel=1e-6)
 
 
+def test_a_scene_is_read_at_its_frame(still, resolved):
+    body = bpy.data.objects["Box"]
+    for frame, height in ((1, 0.0), (11, 5.0)):
+        body.location[2] = height
+        body.keyframe_insert("location", frame=frame)
+    still.frame_set(11)
+    assert [each.to_world[2, 3] for each in resolved(still).shapes] == [5.0]
+
+
+def test_what_stands_on_something_scaled_to_nothing_is_left_out_alone(still, box, resolved):
+    above = box("Above", scale=(0, 0, 0))
+    box("Below").parent = above
+    assert {each.id for each in resolved(still).shapes} == {"Box-mesh"}
+
+
 def assert_same_as_blender(scene, resolved) -> None:
     """Compare the triangles that renderers get with Blender's evaluated ones, both in the world."""
     depsgraph = bpy.context.evaluated_depsgraph_get()
@@ -328,8 +343,21 @@ def test_what_no_renderer_does_is_said(still, read):
     light = bpy.data.lights["Lamp"]
     light.diffuse_factor, light.use_shadow, light.shadow_soft_size, light.color = 0.5, False, 0.2, (1, 0, 0)
     still.camera.data.dof.use_dof = True
+    bpy.data.objects["Box"].visible_shadow = False
+    material = bpy.data.materials["Paint"]
+    material.use_nodes = True
+    shader = next(node for node in material.node_tree.nodes if node.type == "BSDF_PRINCIPLED")
+    shader.inputs["Emission Strength"].default_value = 1
     report = "\n".join(read(still).report)
-    for part in ("diffuse factor", "shadows", "soft falloff", "not in its colour", "sharp everywhere"):
+    for part in (
+        "diffuse factor",
+        "shadows",
+        "soft falloff",
+        "not in its colour",
+        "sharp everywhere",
+        "glows",
+        "all light",
+    ):
         assert part in report
     light.energy = -1
     assert "negative power" in "\n".join(read(still).report)
@@ -379,6 +407,14 @@ def test_a_variable_that_is_not_there_or_says_nothing_is_refused(still, read, li
     bpy.data.materials["Paint"].rtb.reflectance = "(paint)"
     still.rtb.conditions[0].cells[0].value = " "
     assert "the condition one says nothing for paint" in sentence(library, lambda: read(still))
+
+
+def test_rows_that_would_write_the_same_file_or_none_are_refused(still, read, library):
+    for rows, words in (([("a", "1"), ("A", "2")], "stands in line"), ([("a/b", "1")], "cannot name files")):
+        still.rtb.set_conditions(["imageName", "paint"], rows)
+        assert words in sentence(library, lambda: read(still))
+    still.rtb.set_conditions(["paint", "paint"], [("1", "2")])
+    assert "'paint' needs a name" in sentence(library, lambda: read(still))
 
 
 def test_an_unsaved_file_has_no_folder_to_save_a_relative_one_in(still, read, library, tmp_path):

@@ -32,6 +32,7 @@ def test_a_saved_and_reopened_scene_is_the_same_recipe(report):
 def test_the_scene_is_read_as_it_renders_and_left_alone(report):
     assert report["recipe"]["triangles"] == 1, "the cube is subdivided twice in renders only"
     assert report["recipe"]["scenes"] == ["Scene"]
+    assert not [sentence for sentence in report["recipe"]["report"] if "nodes" in sentence]
     for line in ("Area-mesh:light:area", "Light-light:light:point", "diffuseReflectance.spectrum = (paint)"):
         assert line in report["recipe"]["mappings"]
 
