@@ -46,7 +46,9 @@ class ParentEdits:
         """Add what a change says; ValueError where it says what cannot be done."""
         if change.broad_type not in KINDS:
             known = ", ".join(KINDS)
-            raise ValueError(f"broadType is '{change.broad_type}', of the parent scene want one of {known}")
+            message = f"broadType '{change.broad_type}' is skipped, of the parent scene want one of {known}"
+            self._filling.remark(message, change.line)
+            return
         found = find_element(self._filling.document, change.broad_type, change.name, change.index)
         if found.remark:
             self._filling.remark(found.remark, change.line)

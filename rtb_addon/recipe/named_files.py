@@ -17,7 +17,7 @@ if TYPE_CHECKING:
     from ..conditions import Condition
     from . import Recipe
 
-_TEXTURE = re.compile(rb"<(?:\w+:)?init_from[^>]*>\s*([^<]+?)\s*<")
+_TEXTURE = re.compile(rb"<(?:\w+:)?init_from[^>]*>\s*(?:<(?:\w+:)?ref>\s*)?([^<]+?)\s*<")
 _FILE_NAME = re.compile(r"\.[A-Za-z][A-Za-z0-9]{1,4}$")
 # Renderers whose blocks old recipes have, whether they are installed here or not.
 _OLD = ("pbrt",)

@@ -309,10 +309,6 @@ def test_what_is_no_such_file_is_refused_with_its_place(text, line, words):
     ("change", "words"),
     [
         (
-            update("Lamp", "lamps", destination="mexximp"),
-            "broadType is 'lamps', of the parent scene want one of",
-        ),
-        (
             update("Lamp", "nodes", destination="mexximp", colour=1),
             "colour of nodes cannot be set, there are trans",
         ),
@@ -331,9 +327,11 @@ def test_what_cannot_be_done_is_refused_with_its_place(change, words):
         filled(change)
 
 
-def test_a_kind_that_generic_does_not_know_is_skipped_with_a_remark():
+def test_a_kind_that_a_destination_does_not_know_is_skipped_with_a_remark():
     (remark,) = filled(update("Lamp", "nodes")).remarks
     assert str(remark).startswith("mappings.json:2: broadType 'nodes' is skipped, want one of lights")
+    (remark,) = filled(update("Lamp", "", destination="mexximp")).remarks
+    assert str(remark).startswith("mappings.json:2: broadType '' is skipped, of the parent scene want one of")
 
 
 JSON = st.recursive(

@@ -9,6 +9,7 @@ import numpy as np
 import pytest
 
 from rtb_addon.errors import RecipeError
+from rtb_addon.recipe.named_files import texture_names
 from rtb_addon.scene.adjustments import Adjustments
 from rtb_addon.scene.document import Scene
 from rtb_addon.scene.render_scene import Film, TextureUse
@@ -382,6 +383,12 @@ def test_a_picture_in_the_recipe_is_the_reflectance(kind, tmp_path):
     assert (texture.parameters["gamma"], texture.parameters["wrapMode"]) == (2.2, "repeat")
     (shape,) = found.scene.shapes
     assert shape.mesh.uvs.tolist() == [[1, 1]] * 4  # the set that the picture asks for
+
+
+@pytest.mark.parametrize("kind", WOOD)
+def test_a_picture_belongs_to_what_a_recipe_names(kind, tmp_path):
+    (tmp_path / "parent.dae").write_text(wooden(kind))
+    assert "./images/my%20wood.png" in texture_names(tmp_path / "parent.dae")
 
 
 def test_a_picture_that_is_not_in_the_recipe_is_grey_and_said():

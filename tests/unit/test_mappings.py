@@ -5,7 +5,7 @@ import re
 from pathlib import Path
 
 import pytest
-from hypothesis import given
+from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from rtb_addon.conditions import Condition
@@ -446,7 +446,8 @@ BLOCK = st.tuples(
 )
 
 
-@given(st.lists(BLOCK))
+@settings(max_examples=40)
+@given(st.lists(BLOCK, max_size=5))
 def test_blocks_survive_writing_and_reading(blocks):
     text = "".join(
         f"{kind} {group} {{\n" + "".join(f"    {line}\n" for line in lines) + "}\n% so much\n"
