@@ -182,7 +182,8 @@ def test_no_spectrum_is_left_in_what_the_lobe_path_loads(tmp_path):
     assert kinds == {"rawconstant"}
     assert list(ready.materials) == ["black", "paint", "soot"]
     assert set(ready.emitters) == {"A", "B", "Panel-mesh-emission"}
-    np.testing.assert_allclose(ready.materials["paint"][0].reflectance.at([400, 550]), REFLECTANCE.at([400, 550]))
+    painted = ready.materials["paint"][0].reflectance
+    np.testing.assert_allclose(painted.at([400, 550]), REFLECTANCE.at([400, 550]))
     # A spot with a radius has become a sphere of that radiance.
     np.testing.assert_allclose(ready.emitters["B"].spectrum.at(500), 2 / (np.pi * 0.09))
 

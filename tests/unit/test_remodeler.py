@@ -178,7 +178,8 @@ def before_condition(document, condition):
             "remodeler.py:2: after_condition: SystemExit: two lines",
         ),
         (
-            "def f(x):\n    x.linked('#gone', 'camera')\ndef before_all(document, recipe):\n    f(document)\n",
+            "def f(x):\n    x.linked('#gone', 'camera')\n"
+            "def before_all(document, recipe):\n    f(document)\n",
             "remodeler.py:2: before_all: there is no camera #gone, only Camera-camera",
         ),
     ],
