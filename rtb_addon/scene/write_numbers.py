@@ -15,6 +15,7 @@ _PLAIN = range(-4, _DIGITS)
 # What makes a number of a power of ten a whole one of nine digits; negative powers count from the end.
 _SCALES = 10.0 ** (_DIGITS - 1 - np.concatenate([np.arange(0, 40), np.arange(-50, 0)]))
 _WIDTH = len("-0.000") + _DIGITS + len(" ")
+_TRIPLES = np.array([b"%03d" % value for value in range(1000)])
 _FEW = 1000
 # Numbers at a time: what is done to them then stays in the processor's cache.
 _CHUNK = 1 << 14
@@ -79,53 +80,63 @@ def _whole_numbers(count: int) -> NDArray[np.bytes_]:
 def _in_digits(values: NDArray[np.float32]) -> bytes:
     """Return numbers as %.9g writes them, all at once: the digits first, then the point among them."""
     sizes = np.abs(values.astype(float))
-    powers = np.floor(np.log10(np.where(sizes > 0, sizes, 1.0))).astype(np.int32)
+    powers = np.floor(np.log10(np.where(sizes > 0, sizes, 1.0).astype(np.float32))).astype(np.int32)
     whole = np.rint(sizes * _SCALES[powers]).astype(np.int64)
-    over = whole >= 10**_DIGITS  # 9.9999999996 is 10 then
+    over = whole >= 10**_DIGITS  # 9.9999999996 is 10 then, or the logarithm was rounded down
     powers[over] += 1
-    whole[over] //= 10
+    whole[over] = np.rint(sizes[over] * _SCALES[powers[over]]).astype(np.int64)
     under = (whole < 10 ** (_DIGITS - 1)) & (sizes > 0)  # the logarithm was rounded up
     powers[under] -= 1
     whole[under] = np.rint(sizes[under] * _SCALES[powers[under]]).astype(np.int64)
-    digits = _digits(whole)
+    digits = _digits(whole.astype(np.int32))
     text = np.zeros((len(values), _WIDTH), np.uint8)
     text[:, 0] = np.where(values < 0, ord("-"), 0)
-    for power in np.unique(powers).tolist():
+    for power in _different(powers):
         rows = np.flatnonzero(powers == power)
         text[rows, 1:] = _laid_out(digits[rows], power) if power in _PLAIN else _one_by_one(sizes[rows])
     return text.tobytes().translate(None, b"\0")
 
 
-def _digits(whole: NDArray[np.int64]) -> NDArray[np.uint8]:
+def _different(powers: NDArray[np.integer]) -> list[int]:
+    lowest = int(powers.min())
+    return (np.flatnonzero(np.bincount(powers - lowest)) + lowest).tolist()
+
+
+def _digits(whole: NDArray[np.int32]) -> NDArray[np.uint8]:
     """(numbers, 9) array: the decimal digits as characters"""
-    table = np.arange(1000)
-    triples = (np.stack([table // 100, table // 10 % 10, table % 10], axis=1) + ord("0")).astype(np.uint8)
+    triples = np.empty((len(whole), 3), _TRIPLES.dtype)
     upper, lower = np.divmod(whole, 1000)
     top, middle = np.divmod(upper, 1000)
-    return np.concatenate([triples[top], triples[middle], triples[lower]], axis=1)
+    for place, part in enumerate((top, middle, lower)):
+        triples[:, place] = _TRIPLES[part]
+    return triples.view(np.uint8).reshape(-1, _DIGITS)
 
 
 def _laid_out(digits: NDArray[np.uint8], power: int) -> NDArray[np.uint8]:
     """Return digits with their point and a blank behind them; zeros at the end become zero bytes."""
-    before = power + 1 if power >= 0 else 0
-    trimmed = digits.copy()
-    zeros = np.ones(len(digits), bool)
-    for column in range(_DIGITS - 1, before - 1, -1):
-        zeros &= digits[:, column] == ord("0")
-        trimmed[zeros, column] = 0
-    text = np.zeros((len(digits), _WIDTH - 1), np.uint8)
+    before = max(power + 1, 0)
+    whole = _trimmed(digits, before)
     lead = b"" if power >= 0 else b"0." + b"0" * (-power - 1)
+    text = np.zeros((len(digits), _WIDTH - 1), np.uint8)
     text[:, : len(lead)] = np.frombuffer(lead, np.uint8)
-    text[:, len(lead) : len(lead) + before] = trimmed[:, :before]
+    text[:, len(lead) : len(lead) + before] = digits[:, :before]
+    after = len(lead) + before
     if 0 < before < _DIGITS:
-        text[:, before] = np.where(zeros, 0, ord("."))
-        text[:, before + 1 : _DIGITS + 1] = trimmed[:, before:]
-    elif before == 0:
-        text[zeros] = 0
-        text[zeros, 0] = ord("0")
-        text[:, len(lead) : len(lead) + _DIGITS] = trimmed
+        text[:, after] = ord(".")
+        text[whole, after] = 0
+        after += 1
+    text[:, after : after + _DIGITS - before] = digits[:, before:]
     text[:, -1] = ord(" ")
     return text
+
+
+def _trimmed(digits: NDArray[np.uint8], before: int) -> NDArray[np.integer]:
+    """Make the last zeros behind the point zero bytes, and return the rows that have nothing else there."""
+    rows = np.arange(len(digits))
+    for column in range(_DIGITS - 1, before - 1, -1):
+        rows = rows[digits[rows, column] == ord("0")]
+        digits[rows, column] = 0
+    return rows
 
 
 def _one_by_one(sizes: NDArray[np.floating]) -> NDArray[np.uint8]:
