@@ -7,14 +7,11 @@ from collections import OrderedDict
 from collections.abc import Callable, Iterator, Mapping
 from typing import NamedTuple
 
-import numpy as np
-
 from ..spectra import FloatArray
-from .collada_sources import child, children, integers, read_source
-from .holes import bridged
+from .collada_faces import read_faces
+from .collada_sources import children, read_source
 from .paths import Element, local_name
-from .render_scene import IntArray, Mesh
-from .triangulation import triangulate
+from .render_scene import Mesh
 from .welding import welded
 
 _DRAWN = ("triangles", "polylist", "polygons", "tristrips", "trifans")
@@ -40,22 +37,6 @@ class _Input(NamedTuple):
     semantic: str
     source: str
     offset: int
-
-
-class _Faces(NamedTuple):
-    """
-    The faces of a primitive.
-
-    Parameters
-    ----------
-    counts : (outlines,) array, corners of each
-    indices : (corners, inputs) array
-    holes : outline -> how many of the outlines behind it are holes in it
-    """
-
-    counts: IntArray
-    indices: IntArray
-    holes: dict[int, int]
 
 
 class _Known:
@@ -138,7 +119,7 @@ def _parts(mesh: Element, by_id: dict, tables: dict, uv_sets: Mapping[str, int])
 
 def _read_primitive(primitive: Element, by_id: dict, tables: dict, uv_set: int | None) -> Mesh | None:
     inputs = _inputs(primitive, by_id, uv_set)
-    faces = _corners(primitive, 1 + max(each.offset for each in inputs.values()))
+    faces = read_faces(primitive, 1 + max(each.offset for each in inputs.values()))
     values = {}
     for semantic, each in inputs.items():
         key = (each.source, _WIDTHS[semantic])
@@ -149,7 +130,7 @@ def _read_primitive(primitive: Element, by_id: dict, tables: dict, uv_set: int |
             raise ValueError(f"an index of {each.source} is not among its {len(tables[key])} rows")
         values[semantic] = tables[key], column
     points, places = values["POSITION"]
-    triangles = _triangles(faces, points[places])
+    triangles = faces.triangles(points[places])
     return welded(triangles, values["POSITION"], values.get("NORMAL"), values.get("TEXCOORD"))
 
 
@@ -179,77 +160,3 @@ def _inputs(primitive: Element, by_id: dict, uv_set: int | None) -> dict[str, _I
     if missing:
         raise ValueError(f"there is no source #{missing[0]}")
     return {semantic: each for semantic, each in found.items() if semantic in _WIDTHS}
-
-
-def _corners(primitive: Element, least_stride: int) -> _Faces:
-    offsets = [int(each.get("offset", 0)) for each in children(primitive, "input")]
-    stride = max(least_stride, 1 + max(offsets, default=0))
-    outlines, holes = _outlines(primitive)
-    if any(len(each) % stride for each in outlines):
-        raise ValueError(f"its {local_name(primitive)} need {stride} indices for each corner")
-    indices = np.concatenate([*outlines, np.zeros(0, np.int64)]).reshape(-1, stride)
-    lengths = np.array([len(each) // stride for each in outlines], np.int64)
-    if local_name(primitive) in ("tristrips", "trifans"):
-        corners = _stripped(local_name(primitive), lengths)
-        return _Faces(np.full(len(corners) // 3, 3), indices[corners], {})
-    counts = _counts(primitive, lengths)
-    if counts.sum() != len(indices):
-        raise ValueError(f"its {local_name(primitive)} have {len(indices)} corners, want {counts.sum()}")
-    return _Faces(counts, indices, holes)
-
-
-def _outlines(primitive: Element) -> tuple[list[IntArray], dict[int, int]]:
-    """Return lists of indices, holes behind the outline they are in, and how many holes follow an outline."""
-    found: list[IntArray] = []
-    holes: dict[int, int] = {}
-    for each in primitive:
-        if local_name(each) == "p":
-            found.append(integers(each))
-        elif local_name(each) == "ph":
-            inner = children(each, "h")
-            if (outline := child(each, "p")) is None:
-                raise ValueError("a polygon with holes has no outline")
-            holes[len(found)] = len(inner)
-            found += map(integers, (outline, *inner))
-    return found, {first: count for first, count in holes.items() if count}
-
-
-def _triangles(faces: _Faces, points: FloatArray) -> IntArray:
-    """Return the triangles of all faces, (triangles, 3) corners."""
-    if not faces.holes:
-        return triangulate(faces.counts, points)
-    ends = np.cumsum(faces.counts)
-    rings = np.split(np.arange(len(points)), ends[:-1])
-    outlines, inside = [], 0
-    for place, ring in enumerate(rings):
-        if inside:
-            inside -= 1
-            continue
-        inside = faces.holes.get(place, 0)
-        outlines.append(bridged(ring, rings[place + 1 : place + 1 + inside], points) if inside else ring)
-    corners = np.concatenate(outlines)
-    return corners[triangulate(np.array([len(each) for each in outlines]), points[corners])]
-
-
-def _stripped(kind: str, lengths: IntArray) -> IntArray:
-    """Return the corners of the triangles of strips or fans, three by three."""
-    found = [np.zeros((0, 3), np.int64)]
-    starts = np.cumsum(lengths) - lengths
-    for start, length in zip(starts, lengths, strict=True):
-        first = np.arange(max(length - 2, 0))
-        triangles = start + first[:, None] + np.arange(3)
-        if kind == "trifans":
-            triangles[:, 0] = start
-        else:
-            triangles[1::2, :2] = triangles[1::2, 1::-1]
-        found.append(triangles)
-    return np.concatenate(found).ravel()
-
-
-def _counts(primitive: Element, lengths: IntArray) -> IntArray:
-    if local_name(primitive) == "triangles":
-        return np.full(-(-int(lengths.sum()) // 3), 3)
-    if local_name(primitive) == "polygons":
-        return lengths
-    counted = child(primitive, "vcount")
-    return np.zeros(0, np.int64) if counted is None else integers(counted)
