@@ -3,11 +3,31 @@
 from bpy.utils import register_classes_factory
 
 from . import running
+from .add_condition import RTB_OT_add_condition
+from .add_variable import RTB_OT_add_variable
 from .cancel_rendering import RTB_OT_cancel_rendering
+from .copy_conditions import RTB_OT_copy_conditions
+from .duplicate_condition import RTB_OT_duplicate_condition
+from .duplicate_variable import RTB_OT_duplicate_variable
+from .export_conditions import RTB_OT_export_conditions
 from .export_recipe import RTB_OT_export_recipe
+from .fill_from_library import RTB_OT_fill_from_library
+from .fill_graded import RTB_OT_fill_graded
+from .fill_grid import RTB_OT_fill_grid
+from .fill_random import RTB_OT_fill_random
+from .fill_range import RTB_OT_fill_range
+from .import_conditions import RTB_OT_import_conditions
+from .move_condition import RTB_OT_move_condition
+from .move_variable import RTB_OT_move_variable
+from .paste_conditions import RTB_OT_paste_conditions
+from .remove_condition import RTB_OT_remove_condition
+from .remove_variable import RTB_OT_remove_variable
+from .rename_variable import RTB_OT_rename_variable
 from .render_recipe import RTB_OT_render_recipe
+from .select_variable import RTB_OT_select_variable
 from .show_montage import RTB_OT_show_montage
 from .tell import RTB_OT_tell
+from .turn_page import RTB_OT_turn_page
 from .use_spectra import RTB_OT_use_spectra
 
 _register, _unregister = register_classes_factory(
@@ -18,6 +38,26 @@ _register, _unregister = register_classes_factory(
         RTB_OT_show_montage,
         RTB_OT_use_spectra,
         RTB_OT_tell,
+        RTB_OT_add_condition,
+        RTB_OT_add_variable,
+        RTB_OT_copy_conditions,
+        RTB_OT_duplicate_condition,
+        RTB_OT_duplicate_variable,
+        RTB_OT_export_conditions,
+        RTB_OT_fill_from_library,
+        RTB_OT_fill_graded,
+        RTB_OT_fill_grid,
+        RTB_OT_fill_random,
+        RTB_OT_fill_range,
+        RTB_OT_import_conditions,
+        RTB_OT_move_condition,
+        RTB_OT_move_variable,
+        RTB_OT_paste_conditions,
+        RTB_OT_remove_condition,
+        RTB_OT_remove_variable,
+        RTB_OT_rename_variable,
+        RTB_OT_select_variable,
+        RTB_OT_turn_page,
     )
 )
 

@@ -1,8 +1,11 @@
 """What the user sees; draws and never decides."""
 
+import bpy
 from bpy.utils import register_classes_factory
 
 from . import menus, progress
+from .condition_menus import RTB_MT_conditions, RTB_MT_designs, RTB_MT_variable
+from .conditions import RTB_PT_conditions, RTB_UL_conditions
 from .recipe import RTB_PT_light_paths, RTB_PT_montage, RTB_PT_recipe
 from .spectral_emission import RTB_PT_spectral_emission
 from .spectral_light import RTB_PT_spectral_light
@@ -14,6 +17,11 @@ _register, _unregister = register_classes_factory(
         RTB_PT_recipe,
         RTB_PT_light_paths,
         RTB_PT_montage,
+        RTB_UL_conditions,
+        RTB_MT_designs,
+        RTB_MT_variable,
+        RTB_MT_conditions,
+        RTB_PT_conditions,
         RTB_PT_spectral_material,
         RTB_PT_spectral_light,
         RTB_PT_spectral_world,
@@ -25,6 +33,8 @@ _register, _unregister = register_classes_factory(
 def register() -> None:
     """Make the panels, menu entries and the status bar's bar known to Blender."""
     _register()
+    # Of the window and not of the scene: which columns are shown is neither saved nor undone.
+    bpy.types.WindowManager.rtb_first_variable = bpy.props.IntProperty(options={"HIDDEN"}, min=0)
     menus.register()
     progress.register()
 
@@ -33,4 +43,5 @@ def unregister() -> None:
     """Take them back."""
     progress.unregister()
     menus.unregister()
+    del bpy.types.WindowManager.rtb_first_variable
     _unregister()

@@ -20,7 +20,7 @@ class RecordingLayout:
     def row(self, **_):
         return RecordingLayout(self.drawn)
 
-    column = box = row
+    column = box = grid_flow = row
 
     def panel(self, name: str, **_):
         return self.row(), self.row()
@@ -34,6 +34,16 @@ class RecordingLayout:
         operator.get_rna_type()  # raises for an operator that is not there
         self.drawn.append(("operator", name))
         return type("Properties", (), {})()
+
+    def menu(self, name: str, **_) -> None:
+        assert hasattr(bpy.types, name), f"there is no menu {name}"
+        self.drawn.append(("menu", name))
+
+    def template_list(self, kind: str, _, owner, listed: str, active_owner, active: str, **__) -> None:
+        assert hasattr(bpy.types, kind), f"there is no list {kind}"
+        assert listed in owner.bl_rna.properties
+        assert active in active_owner.bl_rna.properties
+        self.drawn.append(("list", kind))
 
     def label(self, text: str = "", **_) -> None:
         self.drawn.append(("label", text))

@@ -9,7 +9,7 @@ import bpy
 
 sys.path.insert(0, str(Path(__file__).parent))  # Blender does not look beside its scripts
 from driver import Driver, Pulse
-from scene import EXTENSION, extension, make_recipe
+from scene import EXTENSION, extension, make_recipe, measured
 
 HEAVY = {"mitsuba", "drjit", "colour", "scipy", "OpenEXR", "embreex"}
 LONG = 200_000  # paths per pixel that nobody waits for
@@ -97,21 +97,6 @@ def render_by_click(driver: Driver):
     driver.report["heavy modules"] = sorted(HEAVY & set(sys.modules))
 
 
-def measured(owner, name: str) -> list[float]:
-    """Let a method note how long it takes [s], and return its notes."""
-    notes, method = [], getattr(owner, name)
-
-    def timed(self, context=None):  # Blender counts the arguments of draw
-        begin = time.perf_counter()
-        try:
-            return method(self) if context is None else method(self, context)
-        finally:
-            notes.append(time.perf_counter() - begin)
-
-    setattr(owner, name, timed)
-    return notes
-
-
 def stop_by_key_and_button(driver: Driver):
     """Stop batches with Esc over each editor and with the button in the panel."""
     bpy.context.scene.rtb.samples = 400
@@ -129,7 +114,7 @@ def stop_by_key_and_button(driver: Driver):
     yield from start(driver)
     region = driver.region("VIEW_3D", "UI")
     rows = driver.button_rows(driver.photograph("before-cancel"), region, from_left=0.8)
-    yield from driver.click(region.x + 0.83 * region.width, sum(rows[-3]) / 2)  # Cancel, Show, Export
+    yield from driver.click(region.x + 0.83 * region.width, sum(rows[0]) / 2)  # Cancel is the topmost
     yield from until_stopped(driver, "Cancel button")
 
 

@@ -1,0 +1,47 @@
+"""What verbs that fill the table with an experimental design have in common."""
+
+from __future__ import annotations
+
+import bpy
+
+from ..rtb_addon.blender.table_texts import HOW, fill
+from .table_verbs import TableVerb
+
+WIDTH = 340  # of the dialogs [pixels at scale 1]
+
+
+class DesignVerb(TableVerb):
+    """An operator with a dialog that puts values of a variable into the table."""
+
+    variable: bpy.props.StringProperty(
+        name="Variable", description="The column that is filled; a new one if there is none of that name"
+    )
+    how: bpy.props.EnumProperty(name="Into", items=HOW)
+
+    def invoke(self, context, event):
+        settings = context.scene.rtb
+        active = settings.variables[settings.active_variable : settings.active_variable + 1]
+        self.begin(active[0].name if active else "variable")
+        return context.window_manager.invoke_props_dialog(self, width=WIDTH, confirm_text="Fill In")
+
+    def begin(self, variable: str) -> None:
+        """Propose the active variable."""
+        self.variable = variable
+
+    def draw(self, context):
+        self.layout.use_property_split = True
+        self.layout.use_property_decorate = False
+        for name in self.fields:
+            self.layout.prop(self, name)
+
+    def put(self, context, values: list[str], names: list[str] | None = None) -> str:
+        """Put values into the variable's column and say how many."""
+        name = self.variable.strip()
+        rows = [[value] for value in values]
+        fill(context.scene.rtb, [name], rows, names or named(name, rows), self.how)
+        return f"{len(values)} values of {name}"
+
+
+def named(prefix: str, rows: list[list[str]]) -> list[str]:
+    """Return a name for each row of a design: the variable's with a number."""
+    return [f"{prefix}-{number:0{len(str(len(rows)))}}" for number in range(1, len(rows) + 1)]

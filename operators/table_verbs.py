@@ -1,0 +1,47 @@
+"""What verbs on the table of conditions have in common."""
+
+from ..rtb_addon.errors import RecipeError
+
+
+class TableVerb:
+    """An operator that edits a scene's table, or says in a sentence why it cannot and changes nothing."""
+
+    bl_options = {"REGISTER", "UNDO"}
+
+    def execute(self, context):
+        try:
+            said = self.edit(context)
+        except RecipeError as error:
+            self.report({"ERROR"}, str(error))
+            return {"CANCELLED"}
+        if said:
+            self.report({"INFO"}, said)
+        return {"FINISHED"}
+
+
+class RowVerb(TableVerb):
+    """A verb on the active condition."""
+
+    bl_options = {"REGISTER", "UNDO", "INTERNAL"}
+
+    @classmethod
+    def poll(cls, context):
+        settings = context.scene.rtb
+        there = settings.active_condition < len(settings.conditions)
+        if not there:
+            cls.poll_message_set("There is no condition yet: add one")
+        return there
+
+
+class ColumnVerb(TableVerb):
+    """A verb on the active variable."""
+
+    bl_options = {"REGISTER", "UNDO", "INTERNAL"}
+
+    @classmethod
+    def poll(cls, context):
+        settings = context.scene.rtb
+        there = settings.active_variable < len(settings.variables)
+        if not there:
+            cls.poll_message_set("There is no variable yet: add one")
+        return there

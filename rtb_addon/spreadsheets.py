@@ -1,0 +1,24 @@
+"""Tables as spreadsheets write and paste them: cells between tabs, semicolons or commas, or quoted."""
+
+from __future__ import annotations
+
+import csv
+import io
+from collections.abc import Iterable, Sequence
+
+SEPARATORS = "\t;,"
+
+
+def parse_rows(text: str) -> list[list[str]]:
+    """Return the cells of each line that is not empty; tabs separate them, else semicolons, else commas."""
+    first = next((line for line in text.splitlines() if line.strip()), "")
+    separator = next((each for each in SEPARATORS if each in first), "\t")
+    rows = csv.reader(io.StringIO(text.removeprefix("\ufeff"), newline=""), delimiter=separator)
+    return [[cell.strip() for cell in row] for row in rows if any(cell.strip() for cell in row)]
+
+
+def format_rows(rows: Iterable[Sequence[str]], separator: str = "\t") -> str:
+    """Return the text that parse_rows() reads back as the same cells."""
+    written = io.StringIO()
+    csv.writer(written, delimiter=separator, lineterminator="\n").writerows(rows)
+    return written.getvalue()

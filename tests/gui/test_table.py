@@ -1,0 +1,42 @@
+"""The table of conditions in a real window; photographs stay in build/screenshots."""
+
+from pathlib import Path
+
+import pytest
+
+PICTURES = Path(__file__).resolve().parents[2] / "build/screenshots"
+PANELS = (
+    "conditions-none",
+    "conditions",
+    "conditions-library",
+    "conditions-random",
+    "conditions-menu",
+    "conditions-many",
+)
+
+
+@pytest.fixture(scope="module")
+def report(blender, tmp_path_factory):
+    """What was found out in the window."""
+    folder = tmp_path_factory.mktemp("table")
+    return blender.run_script(
+        "in_table.py", folder / "report.json", str(folder / "home"), str(PICTURES), window=True
+    )
+
+
+@pytest.mark.parametrize("name", PANELS)
+def test_every_photograph_shows_something(report, name):
+    assert (PICTURES / f"{name}.png").is_file()
+    assert report["colours"][name] > 500
+
+
+def test_a_thousand_rows_scroll_smoothly(report):
+    many = report["many"]
+    assert many["draws"] >= 20
+    # Blender asks only for the rows that are seen: six, and at the edge one more.
+    assert many["items"] <= 8 * many["draws"]
+    assert report["a draw"] < 0.005
+
+
+def test_a_thousand_rows_are_filled_in_at_once(report):
+    assert report["filling"] < 1.0
