@@ -42,6 +42,7 @@ def render(said: Namespace) -> int:
         threads=said.threads,
         fresh=said.fresh,
         trust=said.trust,
+        scheduler=said.scheduler,
         cancelled=stopped.is_set,
     )
     events = _with_montage(Recipe.load(said.folder).overridden(renderer=said.renderer), events)

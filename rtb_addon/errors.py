@@ -30,6 +30,20 @@ class RecipeError(Exception):
         return f"{place}: {self.message}"
 
 
+class RecipeProblems(RecipeError):
+    """
+    Several things in a recipe are wrong; its text is a sentence a line.
+
+    Parameters
+    ----------
+    problems : each of them
+    """
+
+    def __init__(self, problems: Iterable[RecipeError]) -> None:
+        self.problems = tuple(problems)
+        super().__init__("\n".join(map(str, self.problems)))
+
+
 class RenderingError(Exception):
     """One rendering failed; the recipe may be right and the other conditions go on."""
 

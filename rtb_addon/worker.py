@@ -55,6 +55,12 @@ class Task:
         """Return the task as one line."""
         return json.dumps(dataclasses.asdict(self))
 
+    @classmethod
+    def from_json(cls, line: str) -> Task:
+        """Return the task of a line."""
+        words = json.loads(line)
+        return cls(**{**words, "remodeler": tuple(map(tuple, words["remodeler"]))})
+
 
 class Desk:
     """Where tasks arrive and events leave."""
@@ -69,7 +75,7 @@ class Desk:
     def next_task(self) -> Task | None:
         """Wait for a task, or for the end."""
         line = self._tasks.get()
-        return None if line is None or self.closed else Task(**json.loads(line))
+        return None if line is None or self.closed else Task.from_json(line)
 
     def tell(self, event: Event) -> None:
         """Write an event for the batch."""

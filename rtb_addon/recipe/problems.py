@@ -16,6 +16,7 @@ from .condition_scene import (
     renderer_of,
     resolve_condition,
 )
+from .foresight import Foresight
 from .remodeler import REMODELER, UNTRUSTED, code_of
 
 if TYPE_CHECKING:
@@ -73,8 +74,9 @@ def _findings(recipe: Recipe) -> Iterator[Finding]:
     else:
         yield from (Finding(None, str(remark)) for remark in conditions.remarks)
     yield from _untrusted(recipe)
+    foresight = Foresight(recipe)
     for condition in conditions:
-        yield from _condition_findings(recipe, condition)
+        yield from _condition_findings(recipe, condition, foresight)
     yield from (Finding(None, sentence) for sentence in recipe.resources.warnings)
 
 
@@ -97,7 +99,7 @@ def _untrusted(recipe: Recipe) -> Iterator[Finding]:
         yield Finding(RecipeError(UNTRUSTED, REMODELER))
 
 
-def _condition_findings(recipe: Recipe, condition: Condition) -> Iterator[Finding]:
+def _condition_findings(recipe: Recipe, condition: Condition, foresight: Foresight) -> Iterator[Finding]:
     try:
         name = recipe.options_of(condition).renderer
         if (reason := _missing(recipe, name)) is not None:
@@ -107,6 +109,9 @@ def _condition_findings(recipe: Recipe, condition: Condition) -> Iterator[Findin
             return
         parent = remodeled_parent(recipe, condition)
         adjustments = adjustments_of(recipe, condition, recipe.find_file, parent)
+        if wrong := foresight.problems_of(condition, adjustments):
+            yield from map(Finding, wrong)
+            return
         resolved = resolve_condition(recipe, condition, adjustments)
     except RecipeError as error:
         yield Finding(error)

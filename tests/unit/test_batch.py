@@ -202,15 +202,6 @@ def test_a_renderer_that_is_missing_is_said_with_its_reason(write_family, plugin
         list(render_recipe(recipe.folder))
 
 
-def test_a_missing_spectrum_file_fails_in_one_sentence_and_the_others_go_on(write_family):
-    recipe = write_family({"a": "nowhere.spd", "b": "0.5"})
-    event = failure(recipe, "a")
-    assert event.fault == "recipe"
-    assert "nowhere.spd" in event.message
-    assert "\n" not in event.message
-    assert cube(recipe, "b").radiance.shape == (3, 4, 31)
-
-
 def test_the_batch_says_which_spectra_the_library_served(write_family):
     recipe = write_family({"a": "mccBabel-1.spd", "b": "mccBabel-2.spd"})
     first = next(iter(render_recipe(recipe.folder, jobs=1)))

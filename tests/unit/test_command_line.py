@@ -98,7 +98,7 @@ def test_a_missing_file_in_every_condition_is_a_wrong_recipe(write_family, run):
         (["render", "FOLDER", "--conditions", "x"], "no condition is called x, there are a"),
         (["render", "FOLDER", "--size", "12"], "12 is no size like 320x240"),
         (["render", "FOLDER", "--samples", "0"], "0 is no whole number from 1"),
-        (["render", "FOLDER", "--scheduler", "x"], "unrecognized arguments: --scheduler x"),
+        (["render", "FOLDER", "--scheduler", "gopher://x"], "no Dask scheduler answers at gopher://x"),
         (["montage", "FOLDER"], "holds no renderings yet, render it first"),
         (["import", "nowhere.dae", "--output", "x"], "cannot read nowhere.dae: No such file or directory"),
         (["import", "nowhere.dae", "--output", "x", "--convention", "cgs"], "invalid choice: 'cgs'"),
