@@ -9,7 +9,7 @@ from __future__ import annotations
 from collections.abc import Iterator, Mapping
 from typing import Literal, NamedTuple
 
-from ..scene.render_scene import Light, Material, RenderScene, TextureUse
+from ..scene.render_scene import Light, Material, RenderScene, Texture, TextureUse
 
 
 class Fidelity(NamedTuple):
@@ -26,20 +26,22 @@ ABSENT = Fidelity("absent")
 TABLE: Mapping[str, Mapping[str, Fidelity]] = {
     "material matte": {"mitsuba": EXACT, "tracer": EXACT, "sphere": EXACT},
     "material anisoward": {"mitsuba": EXACT, "tracer": EXACT, "sphere": EXACT},
-    "material metal": {"mitsuba": EXACT},
-    "material glass": {"mitsuba": EXACT},
-    "material thinglass": {"mitsuba": EXACT},
-    "material roughglass": {"mitsuba": EXACT},
+    "material metal": {"mitsuba": EXACT, "tracer": EXACT},
+    "material glass": {"mitsuba": EXACT, "tracer": EXACT},
+    "material thinglass": {"mitsuba": EXACT, "tracer": EXACT},
+    "material roughglass": {"mitsuba": EXACT, "tracer": EXACT},
     "material mirror": {"mitsuba": EXACT, "tracer": EXACT},
-    "material plastic": {"mitsuba": EXACT},
-    "material roughplastic": {"mitsuba": EXACT},
-    "material blend": {"mitsuba": EXACT},
-    "material mask": {"mitsuba": EXACT},
+    "material plastic": {"mitsuba": EXACT, "tracer": EXACT},
+    "material roughplastic": {"mitsuba": EXACT, "tracer": EXACT},
+    "material blend": {"mitsuba": EXACT, "tracer": EXACT},
+    "material mask": {"mitsuba": EXACT, "tracer": EXACT},
     "light point": {"mitsuba": EXACT, "tracer": EXACT, "sphere": EXACT},
     "light spot": {"mitsuba": EXACT, "tracer": EXACT},
     "light directional": {"mitsuba": EXACT, "tracer": EXACT},
     "light area": {"mitsuba": EXACT, "tracer": EXACT},
     "light environment": {"mitsuba": EXACT, "tracer": EXACT},
+    "texture checkerboard": {"mitsuba": EXACT},
+    "texture bitmap": {"mitsuba": EXACT},
     "camera perspective": {"mitsuba": EXACT, "tracer": EXACT},
     "camera orthographic": {"mitsuba": EXACT, "tracer": EXACT, "sphere": EXACT},
     "bands averaged": {"mitsuba": EXACT, "tracer": EXACT, "sphere": EXACT},
@@ -65,7 +67,7 @@ def _features(scene: RenderScene) -> Iterator[tuple[str, str]]:
     """Yield what a scene uses, as the table calls it and as a sentence begins."""
     for material in scene.materials.values():
         yield f"material {material.model}", f"material {material.id} is {material.model}"
-        yield from _textures(material)
+        yield from _textures(material, scene.textures)
     for light in scene.lights:
         yield f"light {light.kind}", f"light {light.id} is {light.kind}"
     yield from _environment(scene.environment)
@@ -73,10 +75,11 @@ def _features(scene: RenderScene) -> Iterator[tuple[str, str]]:
     yield f"bands {scene.film.band_kind}", f"the band values are to be {scene.film.band_kind}"
 
 
-def _textures(material: Material) -> Iterator[tuple[str, str]]:
+def _textures(material: Material, textures: Mapping[str, Texture]) -> Iterator[tuple[str, str]]:
     for name, value in material.parameters.items():
         if isinstance(value, TextureUse):
-            yield "texture", f"{name} of material {material.id} is texture {value.texture}"
+            kind = textures[value.texture].kind if value.texture in textures else "missing"
+            yield f"texture {kind}", f"{name} of material {material.id} is texture {value.texture}"
 
 
 def _environment(environment: Light | None) -> Iterator[tuple[str, str]]:

@@ -131,7 +131,7 @@ def test_what_the_tracer_lacks_is_said_in_one_sentence(full, tmp_path):
     measured = {**full.materials, "Paint": Material("Paint", "measured", {})}
     sentence = refused(replace(full, materials=measured), tmp_path)
     assert sentence.startswith(
-        "material Paint is measured, which tracer cannot render; it knows matte, anisoward, mirror"
+        "material Paint is measured, which tracer cannot render; it knows matte, anisoward, metal"
     )
     assert not sentence.endswith(".")
     sunsky = Light("Sky", "sunsky", np.eye(4), {})

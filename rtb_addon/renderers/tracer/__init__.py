@@ -3,7 +3,8 @@ The internal spectral tracer: a path tracer in numpy that carries all bands alon
 
 To read it, follow a path from the camera to a light in integrate.py. The other modules are what it
 meets on its way: camera.py, intersect.py (bvh.py where Embree is missing), materials.py, lights.py;
-sampler.py gives the random numbers, directions.py the arithmetic, native.py the file.
+sampler.py gives the random numbers, directions.py the arithmetic, native.py the file. What a material
+can do stands in meeting.py; matte.py, ward.py, metal.py and so on are the kinds.
 """
 
 from __future__ import annotations
@@ -16,7 +17,7 @@ from ..interface import Extras, Installed, RenderOptions, Report
 from . import integrate, native
 
 # Goes up when a picture of the same native scene changes.
-VERSION = "1.0"
+VERSION = "1.1"
 
 
 class Tracer:

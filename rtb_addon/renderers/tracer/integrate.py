@@ -45,7 +45,7 @@ class World(NamedTuple):
     @classmethod
     def of(cls, scene: RenderScene, kernel: Callable[[FloatArray], Kernel]) -> World:
         """Return a scene's world, its rays found by a kernel."""
-        materials = Materials(scene.materials.values(), scene.film)
+        materials = Materials(scene.materials, scene.film)
         surfaces = Surfaces(scene.shapes, materials.numbers, kernel, materials.oriented)
         return cls(surfaces, materials, Lights(scene, surfaces))
 
@@ -139,7 +139,8 @@ def _tile(
 ) -> FloatArray:
     """Return the (pixels, bands) mean radiance of some pixels, a wave of samples at a time."""
     depth, samples = _depth(scene), scene.integrator.samples
-    sampler = Sampler(len(pixels), samples, 2 * depth - 1, scene.integrator.seed, tile)
+    uses = (2 if world.materials.mixtures is None else 3) * depth - 1
+    sampler = Sampler(len(pixels), samples, uses, scene.integrator.seed, tile)
     together = max(WAVE // len(pixels), 1)
     total = np.zeros((len(pixels), len(scene.film.bands)))
     for first in range(0, samples, together):
@@ -185,7 +186,7 @@ def follow(world: World, paths: Paths, draw: _Draw, depth: int) -> FloatArray:
         if step == depth:
             break
         parts = []
-        for model, theirs, met in _met_surfaces(world, paths, hits):
+        for model, theirs, met in _met_surfaces(world, paths, hits, draw, 2 * depth - 2 + step):
             _add_sampled(world, theirs, model, met, draw.pair(2 * step - 1, theirs.number), found)
             parts.append(_scattered(theirs, model, met, draw.pair(2 * step, theirs.number)))
         paths = Paths.joined(parts, paths)
@@ -206,10 +207,18 @@ def _add_met(world: World, paths: Paths, hits: Hits, found: FloatArray) -> None:
             _add(world, paths, rows, row, column(strength / (1 + rival / paths.density[rows])), found)
 
 
-def _met_surfaces(world: World, paths: Paths, hits: Hits) -> Iterator[tuple[Model, Paths, Meeting]]:
-    """Yield the paths that met a surface which is not black, by how it scatters, and what they met."""
+def _met_surfaces(
+    world: World, paths: Paths, hits: Hits, draw: _Draw, use: int
+) -> Iterator[tuple[Model, Paths, Meeting]]:
+    """
+    Yield the paths that met a surface which is not black, by how it scatters, and what they met.
+
+    What is made of several materials is one of them, by chance.
+    """
     rows = np.nonzero(hits.triangle >= 0)[0]
     material = world.surfaces.material[hits.triangle[rows]]
+    if world.materials.mixtures is not None:
+        material = world.materials.mixtures.one_of(material, draw.pair(use, paths.number[rows])[0])
     bright = world.materials.reflects[material]
     rows, material = rows[bright], material[bright]
     for model, where, row in world.materials.sorted(material):

@@ -1,57 +1,76 @@
 """
 The materials of a scene, sorted by how they scatter light.
 
-Each kind is a Model (meeting.py) in a module of its own, which knows all materials of that kind.
+Each kind is a Model (meeting.py) that knows all materials of that kind. What is made of other materials is,
+wherever a path meets it, one of them.
 """
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterable, Iterator, Sequence
+from collections.abc import Callable, Iterator, Mapping, Sequence
 
 import numpy as np
 from numpy.typing import NDArray
 
 from ...scene.render_scene import Film, IntArray, Material, TextureUse
+from .glass import Glass, ThinGlass
 from .matte import Matte
 from .meeting import Model
-from .smooth import Mirror
+from .metal import RoughMetal, SmoothMetal
+from .mixtures import mixtures
+from .plastic import Plastic, RoughPlastic
+from .rough_glass import RoughGlass
+from .smooth import Mirror, Nothing
 from .tables import Palette, table
 from .ward import Ward
 
+# Vocabulary's word, and the same with a roughness of 0 where that is another kind -> what makes the kind.
 KINDS: dict[str, Callable[[Sequence[Material], Palette], Model]] = {
     "matte": Matte,
     "anisoward": Ward,
     "mirror": Mirror,
+    "metal": RoughMetal,
+    "smooth metal": SmoothMetal,
+    "plastic": Plastic,
+    "roughplastic": RoughPlastic,
+    "glass": Glass,
+    "thinglass": ThinGlass,
+    "roughglass": RoughGlass,
+    "nothing": Nothing,
 }
+_SMOOTH = {"metal": "smooth metal", "roughplastic": "plastic", "roughglass": "glass"}
 
 
 class Materials:
     """
-    The materials of a scene by number.
+    The materials of a scene by number, and after them nothing, what masks let through.
 
     Attributes
     ----------
     numbers : id -> number
     reflects : (materials,) bool array, False for those that are black in every band
     oriented : whether some material has a direction of its own on the surface
+    mixtures : what materials that are made of others are on average, None where none is
     """
 
-    def __init__(self, materials: Iterable[Material], film: Film) -> None:
-        materials = list(materials)
-        self.numbers = {material.id: number for number, material in enumerate(materials)}
-        self.reflects = np.array([_reflects(one, film) for one in materials], bool)
-        self.oriented = any(_oriented(one) for one in materials)
-        kinds = [one.model for one in materials]
-        present = list(dict.fromkeys(kinds))
-        self._kind = np.array([present.index(kind) for kind in kinds], np.int32)
+    def __init__(self, materials: Mapping[str, Material], film: Film) -> None:
+        self.numbers = {id: number for number, id in enumerate(materials)}
+        simple = [*materials.values(), Material("", "nothing", {})]
+        self.reflects = np.array([_reflects(one, film) for one in simple], bool)
+        self.oriented = any(_oriented(one) for one in simple)
+        self.mixtures = mixtures(materials)
+        kinds = [_kind(one) for one in simple]
+        present = [kind for kind in dict.fromkeys(kinds) if kind in KINDS]
+        members = {kind: [one for one in simple if _kind(one) == kind] for kind in present}
+        self._models = [KINDS[kind](members[kind], Palette(film)) for kind in present]
+        self._kind = np.array([present.index(kind) if kind in present else -1 for kind in kinds], np.int32)
         self._row = np.array([kinds[:number].count(kind) for number, kind in enumerate(kinds)], np.int32)
-        self._models = [
-            KINDS[kind]([one for one in materials if one.model == kind], Palette(film)) for kind in present
-        ]
+        # Nothing is met only where something is a mask.
+        self._alone = len(present) == 2 and self.mixtures is None
 
     def sorted(self, material: NDArray[np.int32]) -> Iterator[tuple[Model, IntArray | slice, IntArray]]:
         """Yield each kind among (n,) numbers of materials: where in them, and rows among that kind."""
-        if len(self._models) == 1:
+        if self._alone:
             if len(material):
                 yield self._models[0], slice(None), self._row.take(material)
             return
@@ -60,6 +79,13 @@ class Materials:
             where = np.nonzero(kind == number)[0]
             if len(where):
                 yield model, where, self._row[material[where]]
+
+
+def _kind(material: Material) -> str:
+    """Return which of KINDS a material is; blends and masks are none."""
+    if material.parameters.get("roughness") != 0:
+        return material.model
+    return _SMOOTH.get(material.model, material.model)
 
 
 def _reflects(material: Material, film: Film) -> bool:

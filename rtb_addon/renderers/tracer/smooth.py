@@ -1,4 +1,4 @@
-"""Surfaces that scatter each ray into one other: mirrors."""
+"""Surfaces that scatter each ray into one other: mirrors, and holes."""
 
 from __future__ import annotations
 
@@ -42,6 +42,19 @@ class Mirror(Single):
     def scattered(self, met: Meeting, u: FloatArray, v: FloatArray) -> Onward:
         """Return the mirrored directions."""
         return Onward(mirrored(met), only_one(met))
+
+
+class Nothing(Single):
+    """What masks let through: paths go straight on."""
+
+    transmits = True
+
+    def __init__(self, materials: Sequence[Material], palette: Palette) -> None:
+        pass
+
+    def scattered(self, met: Meeting, u: FloatArray, v: FloatArray) -> Onward:
+        """Return the directions as they were."""
+        return Onward(met.directions, only_one(met))
 
 
 def mirrored(met: Meeting) -> FloatArray:

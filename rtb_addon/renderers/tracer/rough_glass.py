@@ -1,0 +1,80 @@
+"""
+Rough glass: many small clear surfaces, in Beckmann's distribution.
+
+Walter, Marschner, Li and Torrance, *Microfacet Models for Refraction through Rough Surfaces*, 2007, equations
+16 to 21 and 38 to 41; what is behind is 1 / eta^2 as bright (see glass.py).
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+
+import numpy as np
+
+from ...scene.render_scene import IntArray, Material
+from ...spectra import FloatArray
+from . import beckmann, fresnel
+from .directions import dot, normalised
+from .glass import relative
+from .meeting import Meeting, Onward, chosen, column, weighed
+from .tables import Palette, numbers
+
+
+class RoughGlass:
+    """Rough surfaces of solid glass."""
+
+    single = False
+    transmits = True
+
+    def __init__(self, materials: Sequence[Material], palette: Palette) -> None:
+        self._eta = numbers(materials, "intIOR") / numbers(materials, "extIOR")
+        self._roughness = numbers(materials, "roughness")
+        self._reflectance = palette.colours(materials, "specularReflectance")
+        self._transmittance = palette.colours(materials, "specularTransmittance")
+
+    def shared(self, met: Meeting) -> FloatArray | None:
+        """Return None: either way has a colour of its own."""
+        return None
+
+    def evaluate(self, met: Meeting, rows: IntArray, towards: FloatArray) -> tuple[FloatArray, FloatArray]:
+        """Return f cos, and the density of scattered()."""
+        some = met.only(rows)
+        return self._evaluated(some, some.frame.local(towards.take(rows, axis=1)))
+
+    def scattered(self, met: Meeting, u: FloatArray, v: FloatArray) -> Onward:
+        """Choose a small surface, then whether it reflects."""
+        eta, alpha = relative(self._eta, met), self._roughness[met.row]
+        h = beckmann.facets(u, v, alpha, alpha)
+        cosine = dot(met.back, h)
+        reflectance, behind = fresnel.dielectric(cosine.clip(0, 1), eta)
+        # The last 16 bits say which, the first ones turned the surface.
+        back, _ = chosen(reflectance, v * 2.0**16 % 1)
+        towards = np.where(back, 2 * cosine * h - met.back, (cosine / eta - behind) * h - met.back / eta)
+        towards = np.where(cosine > 0, towards, [[0.0], [0.0], [1.0]])
+        value, density = self._evaluated(met, towards)
+        # A small surface that faces away has no path go on, nor has one whose light leaves on the wrong side.
+        density = np.where((cosine > 0) & (back == (towards[2] > 0)), density, 0)
+        return Onward(met.frame.world(towards), density, weighed(value, density))
+
+    def _evaluated(self, met: Meeting, towards: FloatArray) -> tuple[FloatArray, FloatArray]:
+        back, eta, alpha = met.back, relative(self._eta, met), self._roughness[met.row]
+        reflected = towards[2] > 0
+        h = normalised(back + np.where(reflected, 1, eta) * towards)
+        h = np.where(h[2] < 0, -h, h)
+        before, after = dot(back, h), dot(towards, h)
+        seen = (back[2] > 0) & (before > 0) & (np.where(reflected, after, -after) > 0)
+        share, _ = fresnel.dielectric(before.clip(0, 1), eta)
+        share = np.where(reflected, share, 1 - share)
+        # How many directions one small surface's slope stands for: the Jacobian of h.
+        spread = np.where(reflected, 1 / np.where(seen, 4 * after, 1), _refracted(before, after, eta, seen))
+        d = seen * share * beckmann.distribution(h, alpha, alpha) * np.abs(spread)
+        masked = beckmann.unmasked(back, alpha) * beckmann.unmasked(towards, alpha)
+        gain = d * masked * before / np.where(seen, back[2], 1) / np.where(reflected, 1, eta**2)
+        colour = np.where(reflected[:, None], self._reflectance.at(met), self._transmittance.at(met))
+        return column(gain) * colour, d * h[2]
+
+
+def _refracted(before: FloatArray, after: FloatArray, eta: FloatArray, seen: FloatArray) -> FloatArray:
+    """Return the Jacobian of refraction, eta^2 |towards.h| / (back.h + eta towards.h)^2."""
+    total = np.where(seen, before + eta * after, 1)
+    return eta**2 * after / np.where(np.abs(total) > 1e-12, total, 1) ** 2
