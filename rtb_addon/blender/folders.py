@@ -9,6 +9,8 @@ import bpy
 
 from ..errors import RecipeError
 
+# The word NAME where it is a whole folder.
+_NAME = re.compile(r"(?<![^/\\])NAME(?![^/\\])")
 _UNSAFE = re.compile(r'[\x00-\x1f<>:"/\\|?*]')
 
 
@@ -20,7 +22,8 @@ def recipe_name(scene) -> str:
 
 def recipe_folder(scene) -> Path:
     """Return the folder that a scene's recipe is written to."""
-    said = (scene.rtb.folder.strip() or "//rtb/NAME/").replace("NAME", recipe_name(scene))
+    name = recipe_name(scene)
+    said = _NAME.sub(lambda _: name, scene.rtb.folder.strip() or "//rtb/NAME/")
     if said.startswith("//") and not bpy.data.filepath:
         raise RecipeError(f"the recipe's folder {said} is relative to the .blend file: save that first")
     return Path(bpy.path.abspath(said))

@@ -419,9 +419,9 @@ def test_rows_that_would_write_the_same_file_or_none_are_refused(still, read, li
 
 def test_an_unsaved_file_has_no_folder_to_save_a_relative_one_in(still, read, library, tmp_path):
     assert "save that first" in sentence(library, lambda: read(still).save())
-    still.rtb.folder = str(tmp_path / "NAME")
+    still.rtb.folder = str(tmp_path / "RENAMED" / "NAME")
     still.rtb.name = "elsewhere"
-    assert read(still).save() == tmp_path / "elsewhere"
+    assert read(still).save() == tmp_path / "RENAMED" / "elsewhere"
 
 
 # A row applied in Blender and then exported, or exported and then applied by the mappings
