@@ -30,7 +30,9 @@ def write_exr(path: Path, header: Mapping[str, Any], planes: Mapping[str, FloatA
     header = {"compression": OpenEXR.ZIP_COMPRESSION, "type": OpenEXR.scanlineimage, **header}
     with replacing(path) as temporary:
         try:
-            OpenEXR.File(header, dict(planes)).write(str(temporary))
+            # OpenEXR reads a view with gaps as if it had none.
+            whole = {name: np.ascontiguousarray(plane) for name, plane in planes.items()}
+            OpenEXR.File(header, whole).write(str(temporary))
         except RuntimeError as error:
             raise RecipeError(f"cannot write {path.name} into {path.parent}: {error}") from error
 

@@ -216,8 +216,8 @@ def test_the_direct_integrator_is_a_path_of_depth_two(tmp_path):
 WRONG = {
     "bands of kind mean": lambda: scene(kind="mean"),
     "depth 0": lambda: scene(depth=0),
-    "no textures yet": lambda: scene(reflectance=TextureUse("wood")),
-    "a negative reflectance": lambda: scene(reflectance=Spectrum.constant(-0.1)),
+    "texture wood, which the scene does not have": lambda: scene(reflectance=TextureUse("wood")),
+    "a negative diffuseReflectance": lambda: scene(reflectance=Spectrum.constant(-0.1)),
     "a negative intensity": lambda: scene([lamp("point", intensity=Spectrum.constant(-1), radius=0.0)]),
     "no sunsky light yet": lambda: scene([Light("Lamp", "sunsky", np.eye(4), {})]),
     "-2 as its radius": lambda: scene([lamp("point", radius=-2)]),

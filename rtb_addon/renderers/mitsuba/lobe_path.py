@@ -69,7 +69,7 @@ def path_radiance(scene, tables: Tables, sampler, ray, depth) -> list:
         glow = dr.select(lit, scalar * share * weight.x * tables.beam(row, -found.d, lit), 0)
         emission = tables.emission(row, lit)
         seen_lit, spectral, scalar, glow = scatter(
-            tables, spectral, scalar, (bsdf, si.wi, going), (towards, value, glow), (turn.wo, onward)
+            tables, spectral, scalar, (bsdf, si, going), (towards, value, glow), (turn.wo, onward)
         )
         radiance = _add(radiance, seen_lit, emission, glow)
 
@@ -106,15 +106,15 @@ def scatter(tables, spectral, scalar, at, lit, turned):
 
     Parameters
     ----------
-    at : the materials, the directions that light leaves in, and which of them count
+    at : the materials, where paths meet them, and which of them count
     lit : directions to the light, the coefficients of the lobes there, and its weight so far
     turned : directions of the paths, and the coefficients of the lobes there
     """
-    (bsdf, wi, active), (towards, value, glow), (wo, onward) = at, lit, turned
+    (bsdf, si, active), (towards, value, glow), (wo, onward) = at, lit, turned
     row = tables.material_row(bsdf, active)
-    lobes = [tables.reflectance(row, k, active) for k in range(tables.lobes)]
-    there = _with_metals(tables, lobes, row, dr.dot(wi, towards), active)
-    ahead = _with_metals(tables, lobes, row, dr.dot(wi, wo), active)
+    lobes = [tables.reflectance(row, k, si.uv, active) for k in range(tables.lobes)]
+    there = _with_metals(tables, lobes, row, dr.dot(si.wi, towards), active)
+    ahead = _with_metals(tables, lobes, row, dr.dot(si.wi, wo), active)
     if tables.lobes == 1:
         spectral_lit = _times(spectral, there[0])
         spectral = spectral_lit if tables.metals == 0 else _times(spectral, ahead[0])

@@ -15,11 +15,13 @@ from __future__ import annotations
 import copy
 from collections.abc import Iterator, Mapping
 from dataclasses import dataclass
+from pathlib import Path
 from xml.etree import ElementTree as Xml
 
 from ...errors import RenderingError
 from ...spectra import Spectrum
-from .spectrum_xml import element, parse_spectrum
+from ..pictures import Picture, read_picture
+from .spectrum_xml import element, parse_spectrum, properties
 
 MOST_LOBES = 3
 # Materials that are exactly linear in their spectra, which is what makes the lobe path exact, and the spectra
@@ -41,6 +43,24 @@ _LINEAR: Mapping[str, Mapping[str, float]] = {
 
 
 @dataclass(frozen=True, eq=False)
+class PictureUse:
+    """
+    A picture on a surface.
+
+    Parameters
+    ----------
+    wrap : what lies beyond its edges, a word of textures_xml.WRAPS
+    nearest : whether texels are squares; else they fade into each other
+    place : scale of U and of V, offset of U and of V
+    """
+
+    picture: Picture
+    wrap: str
+    nearest: bool
+    place: tuple[float, ...]
+
+
+@dataclass(frozen=True, eq=False)
 class Lobe:
     """
     What multiplies one of a material's coefficients, band by band.
@@ -49,10 +69,12 @@ class Lobe:
     ----------
     reflectance : the spectrum
     index : eta and k of a metal, or None
+    picture : what stands in the place of the spectrum, or None
     """
 
     reflectance: Spectrum
     index: tuple[Spectrum, Spectrum] | None = None
+    picture: PictureUse | None = None
 
 
 def take_lobes(root: Xml.Element) -> dict[str, list[Lobe]]:
@@ -89,10 +111,8 @@ def _take(id: str, material: Xml.Element) -> list[Lobe]:
     places = []
     for parent, index, child in _spectra(id, material):
         key = _content(child), *map(_content, metals.get(parent, ()))
-        eta_and_k = [parse_spectrum(node) for node in metals.get(parent, ())]
-        found.setdefault(
-            key, Lobe(parse_spectrum(child), (eta_and_k[0], eta_and_k[1]) if eta_and_k else None)
-        )
+        if key not in found:
+            found[key] = _lobe(child, metals.get(parent, ()))
         places.append((parent, index, child.get("name", ""), key))
     if not 1 <= len(found) <= MOST_LOBES:
         raise RenderingError(f"the native scene's {id} has {len(found)} spectra, give it 1 to {MOST_LOBES}")
@@ -101,6 +121,18 @@ def _take(id: str, material: Xml.Element) -> list[Lobe]:
     for parent, index, name, key in places:
         parent[index] = one_hot_colour(name, order.index(key))
     return [found[key] for key in order]
+
+
+def _lobe(node: Xml.Element, index: tuple[Xml.Element, ...]) -> Lobe:
+    eta_and_k = [parse_spectrum(each) for each in index]
+    metal = (eta_and_k[0], eta_and_k[1]) if index else None
+    if node.tag == "spectrum":
+        return Lobe(parse_spectrum(node), metal)
+    said = properties(node)
+    place = tuple(float(said[name]) for name in ("scale_u", "scale_v", "offset_u", "offset_v"))
+    picture = read_picture(Path(said["filename"]), float(said["gamma"]))
+    use = PictureUse(picture, said["wrap_mode"], said["filter_type"] == "nearest", place)
+    return Lobe(Spectrum.constant(1.0), metal, use)
 
 
 def _complete(id: str, node: Xml.Element) -> None:
@@ -160,7 +192,7 @@ def _spectra(id: str, material: Xml.Element) -> Iterator[tuple[Xml.Element, int,
         for index, child in enumerate(list(parent)):
             if child.tag == "rgb" or (child.tag == "spectrum" and not child.get("type")):
                 raise RenderingError(f"the native scene's {id} has a colour, write a regular spectrum")
-            if child.tag == "spectrum":
+            if child.tag == "spectrum" or child.get("type") == "picture":
                 yield parent, index, child
 
 

@@ -52,6 +52,12 @@ class Native:
         blends = [node.get("id", "") for node in self.root.iter("bsdf") if node.get("type") == "blendbsdf"]
         said = [f"the edge of the spot {name}" for name in spots] + [f"the disc of {name}" for name in suns]
         said += [f"the blend {name}" for name in blends]
+        pictured = (
+            node.get("id", "")
+            for node in self.root.iter("bsdf")
+            if node.get("id") and any(each.get("type") == "picture" for each in node.iter("texture"))
+        )
+        said += [f"the picture on {name}" for name in pictured]
         return said + (["pixels that are not square"] if self.pixel_stretch != 1 else [])
 
 

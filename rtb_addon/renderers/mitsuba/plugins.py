@@ -5,6 +5,7 @@ from __future__ import annotations
 from types import ModuleType
 
 from .blend import blend_plugin
+from .picture_plugin import picture_plugin
 from .ward import ward_plugin
 
 _registered: set[str] = set()
@@ -16,4 +17,5 @@ def register(mi: ModuleType) -> None:
     if mi.variant() not in _registered:
         mi.register_bsdf("ward", ward_plugin(mi))
         mi.register_bsdf("fairblend", blend_plugin(mi))
+        mi.register_texture("picture", picture_plugin(mi))
         _registered.add(mi.variant())

@@ -16,6 +16,7 @@ import numpy as np
 from ...spectra import BandKind, Bands, FloatArray, Spectrum
 from .lobes import Lobe
 from .one_hot import Emitter, OneHotScene
+from .pictures import Pictures
 
 _NO_METAL = Lobe(Spectrum.constant(1.0))
 # A spectrum's row is fetched four numbers at a time.
@@ -32,6 +33,7 @@ class Tables:
     ----------
     padded_bands : number of bands, rounded up to whole packets; the rest are zero
     lobes : most spectra that a material has
+    pictures : those of the scene's lobes
     metals : most lobes of metals that a material has; they are its first
     beams : whether some emitter is a spot
     suns : number of emitters that are discs in the sky
@@ -44,6 +46,7 @@ class Tables:
         self.beams = any(emitter.outer > -2 for emitter in emitters)
         self.suns = sum(emitter.narrowness > 0 for emitter in emitters)
         self._fill(source, emitters, bands, kind)
+        self.pictures = _pictures(source, bands, kind, self.padded_bands)
         self._bsdf_rows = _rows_by_pointer(
             {shape.bsdf().id(): mi.BSDFPtr(shape.bsdf()) for shape in scene.shapes()}, source.materials
         )
@@ -91,9 +94,11 @@ class Tables:
         """Return the row of each material."""
         return dr.gather(mi.UInt32, self._bsdf_rows, _number(bsdf), active)
 
-    def reflectance(self, row, lobe: int, active) -> list:
-        """Return the spectrum of a material's lobe, one mi.Float a band."""
-        return self._bands(self._reflectances, row * self.lobes + lobe, active)
+    def reflectance(self, row, lobe: int, uv, active) -> list:
+        """Return the spectrum of a material's lobe at a place on the surface, one mi.Float a band."""
+        place = row * self.lobes + lobe
+        plain = self._bands(self._reflectances, place, active)
+        return self.pictures.reflectance(place, uv, plain, active) if self.pictures.any else plain
 
     def fresnel(self, row, lobe: int, cosine, active) -> list:
         """Return what a metal's lobe reflects at an angle, one mi.Float a band; 1 where it is no metal's."""
@@ -130,6 +135,11 @@ class Tables:
         packets = self.padded_bands // _PACKET
         found: list[Any] = [dr.gather(mi.Vector4f, table, row * packets + k, active) for k in range(packets)]
         return [packet[k] for packet in found for k in range(_PACKET)]
+
+
+def _pictures(source: OneHotScene, bands: Bands, kind: BandKind, padded: int) -> Pictures:
+    rows = ([*lobes, *[None] * source.lobes][: source.lobes] for lobes in source.materials.values())
+    return Pictures([lobe for row in rows for lobe in row], bands, kind, padded)
 
 
 def _fresnel(cosine, eta, k):

@@ -22,7 +22,7 @@ from ..native_lines import integrator_with
 from ..ply import write_mesh
 from .camera_xml import matrix, sensor
 from .lights_xml import BLACK, environment, light
-from .materials_xml import materials
+from .materials_xml import materials, texture_of
 from .names import Names
 from .spectrum_xml import element, format_spectrum, range_for, regular
 
@@ -53,9 +53,10 @@ def scene_xml(scene: RenderScene, integrator: Integrator, folder: Path) -> Xml.E
     root.append(_integrator(integrator))
     root.append(_black(names))
     root.extend(sensor(scene.camera, scene.film, _sampler(integrator), _film(scene.film), names))
-    root.extend(materials(scene.materials, names, span))
+    root.extend(materials(scene, names, span, folder))
     for shape in scene.shapes:
         if len(shape.mesh.triangles):
+            _check_uvs(shape, scene)
             root.append(_shape(shape, folder, names, span))
     for lamp in scene.lights:
         root.extend(light(lamp, names, span))
@@ -106,6 +107,12 @@ def _black(names: Names) -> Xml.Element:
     node = element("bsdf", "diffuse", id=names.of("material", BLACK))
     node.append(element("spectrum", "uniform", name="reflectance", value=0.0))
     return node
+
+
+def _check_uvs(shape: Shape, scene: RenderScene) -> None:
+    """Refuse a texture on a mesh that does not say where each of its points lies in it."""
+    if shape.mesh.uvs is None and (found := texture_of(shape.material, scene)):
+        raise RecipeError(f"shape {shape.id} has texture {found} but no texture coordinates, unwrap its mesh")
 
 
 def _shape(shape: Shape, folder: Path, names: Names, span: tuple[float, float]) -> Xml.Element:
