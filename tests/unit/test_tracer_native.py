@@ -21,6 +21,7 @@ from rtb_addon.scene.render_scene import (
     Mesh,
     RenderScene,
     Shape,
+    Texture,
     TextureUse,
 )
 from rtb_addon.spectra import Bands, Spectrum, Unit
@@ -55,11 +56,20 @@ def full():
                 Spectrum.constant(0.1, Unit.RADIANCE),
             ),
         ),
-        {name: Material(name, "matte", {"diffuseReflectance": paint}) for name in ("Paint", "Grün")},
+        {
+            "Paint": Material("Paint", "matte", {"diffuseReflectance": TextureUse("Board")}),
+            "Grün": Material("Grün", "matte", {"diffuseReflectance": paint}),
+        },
         (
             Light("Lamp-light", "point", awkward(rng, 4, 4), {**light, "radius": 0.1}),
             Light("Spot-light", "spot", np.eye(4), {**light, "radius": 0.0, "cone": 45.0, "blend": 1 / 7}),
         ),
+        textures={
+            "Board": Texture(
+                "Board", "checkerboard", {"oddColor": paint, "evenColor": paint, "checksPerU": 1 / 3}
+            ),
+            "Wall": Texture("Wall", "bitmap", {"filename": "/pictures/stone.exr", "wrapMode": "repeat"}),
+        },
         environment=Light("World", "environment", np.eye(4), {**light, "filename": ""}),
         integrator=Integrator("path", 7, 12, 3),
         film=Film(32, 24, Bands.around([400, 433.3, 500]), "centre"),
@@ -150,7 +160,7 @@ def test_what_the_tracer_lacks_is_said_in_one_sentence(full, tmp_path):
 
 def test_a_scene_of_plain_things_lacks_nothing(full):
     assert fidelity.unsupported(full, "tracer") == []
-    assert len(fidelity.unsupported(full, "somebody")) == 7
+    assert len(fidelity.unsupported(full, "somebody")) == 8
 
 
 @pytest.mark.parametrize(("name", "value"), [("radius", -1.0), ("cone", 200.0), ("blend", float("nan"))])
@@ -200,6 +210,7 @@ def test_the_tracer_never_imports_mitsuba():
         "importlib",
         "json",
         "numpy",
+        "os",
         "pathlib",
         "typing",
     }

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterator, Mapping
 
 from ...errors import RecipeError
-from ...scene.render_scene import Material, RenderScene, Value
+from ...scene.render_scene import Material, RenderScene, Texture, TextureUse, Value
 
 _LIGHTS = {"radius": (0, 1e30), "cone": (0, 180), "blend": (0, 1), "angle": (0, 180)}
 _MATERIALS = {
@@ -17,6 +17,11 @@ _MATERIALS = {
     "weight": (0, 1),
     "opacity": (0, 1),
 }
+_TEXTURES = {f"{name}{axis}": (-1e6, 1e6) for name in ("checksPer", "offset", "scale") for axis in "UV"}
+_WORDS = {
+    "wrapMode": ("repeat", "mirror", "clamp"),
+    "filterMode": ("ewa", "trilinear", "bilinear", "nearest"),
+}
 VARIANTS = ("ward", "ward-duer", "balanced")
 _REFERENCES = ("materialID", "otherMaterialID")
 
@@ -25,13 +30,19 @@ def check(scene: RenderScene) -> None:
     """Raise RecipeError for numbers, and names of materials, that have no meaning."""
     for light in scene.lights:
         _check_numbers(f"light {light.id}", light.parameters, _LIGHTS)
-    for shape in scene.shapes:
-        if shape.material not in scene.materials:
-            raise RecipeError(f"shape {shape.id} is of material {shape.material}, which the scene has not")
     for material in scene.materials.values():
         _check_numbers(f"material {material.id}", material.parameters, _MATERIALS)
         _check_variant(material)
         _check_references(material, scene.materials)
+    for texture in scene.textures.values():
+        _check_texture(texture)
+    for shape in scene.shapes:
+        if shape.material not in scene.materials:
+            raise RecipeError(f"shape {shape.id} is of material {shape.material}, which the scene has not")
+        if shape.mesh.uvs is None and (texture := _texture_of(shape.material, scene.materials)):
+            raise RecipeError(
+                f"shape {shape.id} has no texture coordinates for texture {texture}, unwrap its mesh"
+            )
 
 
 def parts(material: Material) -> Iterator[str]:
@@ -68,3 +79,17 @@ def _check_references(material: Material, materials: Mapping[str, Material]) -> 
         if id not in above:
             above.append(id)
             here.extend(parts(materials[id]))
+
+
+def _texture_of(id: str, materials: Mapping[str, Material]) -> str:
+    """Return the id of a texture that a material or one of its parts uses, or nothing."""
+    used = [one.texture for one in materials[id].parameters.values() if isinstance(one, TextureUse)]
+    inside = (_texture_of(part, materials) for part in parts(materials[id]))
+    return next((each for each in (*used, *inside) if each), "")
+
+
+def _check_texture(texture: Texture) -> None:
+    _check_numbers(f"texture {texture.id}", texture.parameters, _TEXTURES)
+    for name, choices in _WORDS.items():
+        if (word := texture.parameters.get(name, choices[0])) not in choices:
+            raise RecipeError(f"texture {texture.id} has {name} {word}, choose one of {', '.join(choices)}")

@@ -45,8 +45,8 @@ class World(NamedTuple):
     @classmethod
     def of(cls, scene: RenderScene, kernel: Callable[[FloatArray], Kernel]) -> World:
         """Return a scene's world, its rays found by a kernel."""
-        materials = Materials(scene.materials, scene.film)
-        surfaces = Surfaces(scene.shapes, materials.numbers, kernel, materials.oriented)
+        materials = Materials(scene.materials, scene.film, scene.textures)
+        surfaces = Surfaces(scene.shapes, materials.numbers, kernel, materials.oriented, materials.textured)
         return cls(surfaces, materials, Lights(scene, surfaces))
 
     def meet(self, origins: FloatArray, directions: FloatArray, reach: FloatArray | None) -> Hits:

@@ -19,7 +19,7 @@ from ...spectra import FloatArray
 from .bvh import Bvh
 from .directions import cross, dot, normalised
 from .kernels import Embree, Hits, Kernel
-from .texture_space import along_u
+from .texture_space import along_u, corner_uvs
 
 # How far a ray starts off a surface, per size of the numbers in it: 16 units of single precision.
 _LIFT = 2.0**-20
@@ -45,6 +45,7 @@ class Places(NamedTuple):
     lift : (n,) how far above [m]
     side : (n,) 1 where the ray came from the side that the triangle's own normal points to, else -1
     tangents : (3, n) vectors along which U grows, or None where no material asks for them
+    uvs : (2, n) texture coordinates, or None where no material asks for them
     """
 
     faces: FloatArray
@@ -53,6 +54,7 @@ class Places(NamedTuple):
     lift: FloatArray
     side: FloatArray
     tangents: FloatArray | None = None
+    uvs: FloatArray | None = None
 
     @property
     def behind(self) -> FloatArray:
@@ -68,6 +70,7 @@ class Places(NamedTuple):
             self.lift[rows],
             self.side[rows],
             None if self.tangents is None else self.tangents.take(rows, axis=1),
+            None if self.uvs is None else self.uvs.take(rows, axis=1),
         )
 
 
@@ -89,6 +92,7 @@ class Surfaces:
     Parameters
     ----------
     oriented : whether some material asks for the direction in which U grows
+    textured : whether some material asks for texture coordinates
     """
 
     def __init__(
@@ -97,6 +101,7 @@ class Surfaces:
         materials: Mapping[str, int],
         make: Callable[[FloatArray], Kernel],
         oriented: bool = False,
+        textured: bool = False,
     ) -> None:
         counts = [len(shape.mesh.triangles) for shape in shapes]
         self.shape = np.repeat(np.arange(len(shapes), dtype=np.int32), counts)
@@ -107,6 +112,7 @@ class Surfaces:
         sides = np.array([_side(shape) for shape in shapes]).take(self.shape)
         self.normals = normalised(cross(one, two)) * sides
         self._smooth = _shading_normals(shapes, self.normals)
+        self._uvs = corner_uvs(shapes) if textured else None
         self._tangents = along_u(shapes, self.normals, one, two) if oriented else None
         self._centre = self._middle()
         self.lift = np.abs(self.corners - self._centre).max(axis=(0, 1), initial=0) * _LIFT
@@ -141,7 +147,11 @@ class Surfaces:
             a, b, c = self._smooth.take(hits.triangle, axis=2)
             normals = side * normalised(a + hits.u * (b - a) + hits.v * (c - a))
         tangents = None if self._tangents is None else self._tangents.take(hits.triangle, axis=1)
-        return Places(faces, normals, points + faces * rows[12], rows[12], side, tangents)
+        uvs = None
+        if self._uvs is not None:
+            a, b, c = self._uvs.take(hits.triangle, axis=2)
+            uvs = a + hits.u * (b - a) + hits.v * (c - a)
+        return Places(faces, normals, points + faces * rows[12], rows[12], side, tangents, uvs)
 
     def radius(self) -> float:
         """Return the radius [m] of a sphere around everything; 1 when there is nothing."""

@@ -12,7 +12,7 @@ from collections.abc import Callable, Iterator, Mapping, Sequence
 import numpy as np
 from numpy.typing import NDArray
 
-from ...scene.render_scene import Film, IntArray, Material, TextureUse
+from ...scene.render_scene import Film, IntArray, Material, Texture, TextureUse
 from .glass import Glass, ThinGlass
 from .matte import Matte
 from .meeting import Model
@@ -22,6 +22,7 @@ from .plastic import Plastic, RoughPlastic
 from .rough_glass import RoughGlass
 from .smooth import Mirror, Nothing
 from .tables import Palette, table
+from .textures import lookup
 from .ward import Ward
 
 # Vocabulary's word, and the same with a roughness of 0 where that is another kind -> what makes the kind.
@@ -50,10 +51,13 @@ class Materials:
     numbers : id -> number
     reflects : (materials,) bool array, False for those that are black in every band
     oriented : whether some material has a direction of its own on the surface
+    textured : whether some material has a texture
     mixtures : what materials that are made of others are on average, None where none is
     """
 
-    def __init__(self, materials: Mapping[str, Material], film: Film) -> None:
+    def __init__(
+        self, materials: Mapping[str, Material], film: Film, textures: Mapping[str, Texture] | None = None
+    ) -> None:
         self.numbers = {id: number for number, id in enumerate(materials)}
         simple = [*materials.values(), Material("", "nothing", {})]
         self.reflects = np.array([_reflects(one, film) for one in simple], bool)
@@ -62,7 +66,9 @@ class Materials:
         kinds = [_kind(one) for one in simple]
         present = [kind for kind in dict.fromkeys(kinds) if kind in KINDS]
         members = {kind: [one for one in simple if _kind(one) == kind] for kind in present}
-        self._models = [KINDS[kind](members[kind], Palette(film)) for kind in present]
+        used = {id: lookup(texture, film) for id, texture in (textures or {}).items()}
+        self.textured = bool(used)
+        self._models = [KINDS[kind](members[kind], Palette(film, used)) for kind in present]
         self._kind = np.array([present.index(kind) if kind in present else -1 for kind in kinds], np.int32)
         self._row = np.array([kinds[:number].count(kind) for number, kind in enumerate(kinds)], np.int32)
         # Nothing is met only where something is a mask.

@@ -8,6 +8,7 @@ gives back the same bits.
 from __future__ import annotations
 
 import json
+import os
 from collections.abc import Mapping
 from dataclasses import asdict, replace
 from pathlib import Path
@@ -17,7 +18,18 @@ import numpy as np
 
 from ...errors import RecipeError, RenderingError
 from ...files import write_text
-from ...scene.render_scene import Camera, Film, Integrator, Light, Material, RenderScene, Shape, Value
+from ...scene.render_scene import (
+    Camera,
+    Film,
+    Integrator,
+    Light,
+    Material,
+    RenderScene,
+    Shape,
+    Texture,
+    TextureUse,
+    Value,
+)
 from ...spectra import Bands, Spectrum, Unit
 from ..fidelity import unsupported
 from ..interface import Extras
@@ -25,7 +37,7 @@ from ..native_lines import integrator_with
 from ..ply import read_mesh, write_mesh
 from .checks import check
 
-VERSION = 1
+VERSION = 2
 _FORMAT = "RenderToolbox tracer scene"
 
 
@@ -64,6 +76,7 @@ def _scene(scene: RenderScene, folder: Path) -> dict[str, Any]:
             {"id": material.id, "model": material.model, "parameters": _parameters(material.parameters)}
             for material in scene.materials.values()
         ],
+        "textures": [_texture(texture, folder) for texture in scene.textures.values()],
         "shapes": [_shape(shape, folder) for shape in scene.shapes],
     }
 
@@ -95,9 +108,21 @@ def _shape(shape: Shape, folder: Path) -> dict[str, Any]:
 
 
 def _parameters(parameters: Mapping[str, Value]) -> dict[str, Any]:
-    return {
-        name: _spectrum(value) if isinstance(value, Spectrum) else value for name, value in parameters.items()
-    }
+    return {name: _value(value) for name, value in parameters.items()}
+
+
+def _value(value: Value) -> Any:
+    if isinstance(value, TextureUse):
+        return {"texture": value.texture}
+    return _spectrum(value) if isinstance(value, Spectrum) else value
+
+
+def _texture(texture: Texture, folder: Path) -> dict[str, Any]:
+    """Return a texture, its file named as seen from the native scene's folder."""
+    parameters = _parameters(texture.parameters)
+    if "filename" in parameters:
+        parameters["filename"] = Path(os.path.relpath(parameters["filename"], folder)).as_posix()
+    return {"id": texture.id, "kind": texture.kind, "parameters": parameters}
 
 
 def _spectrum(spectrum: Spectrum) -> dict[str, Any]:
@@ -133,6 +158,7 @@ def _read_scene(native: dict[str, Any], folder: Path) -> RenderScene:
         shapes=tuple(_read_shape(one, folder) for one in native["shapes"]),
         materials={material.id: material for material in materials},
         lights=tuple(_read_light(one) for one in native["lights"]),
+        textures={one["id"]: _read_texture(one, folder) for one in native["textures"]},
         environment=None if environment is None else _read_light(environment),
         integrator=Integrator(**native["integrator"]),
         film=Film(**{**film, "bands": Bands(np.array(bands["centres"]), np.array(bands["edges"]))}),
@@ -151,10 +177,20 @@ def _read_shape(one: dict[str, Any], folder: Path) -> Shape:
 
 
 def _read_parameters(parameters: dict[str, Any]) -> dict[str, Value]:
-    return {
-        name: _read_spectrum(value) if isinstance(value, dict) else value
-        for name, value in parameters.items()
-    }
+    return {name: _read_value(value) for name, value in parameters.items()}
+
+
+def _read_value(value: Any) -> Value:
+    if not isinstance(value, dict):
+        return value
+    return TextureUse(value["texture"]) if "texture" in value else _read_spectrum(value)
+
+
+def _read_texture(one: dict[str, Any], folder: Path) -> Texture:
+    parameters = _read_parameters(one["parameters"])
+    if "filename" in parameters:
+        parameters["filename"] = os.path.normpath(folder / str(parameters["filename"]))
+    return Texture(one["id"], one["kind"], parameters)
 
 
 def _read_spectrum(one: dict[str, Any]) -> Spectrum:

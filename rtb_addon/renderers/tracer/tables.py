@@ -2,18 +2,19 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from typing import TYPE_CHECKING, NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
 
 from ...errors import RenderingError
-from ...scene.render_scene import Film, Material
+from ...scene.render_scene import Film, Material, TextureUse
 from ...spectra import FloatArray, Spectrum
 
 if TYPE_CHECKING:
     from .meeting import Meeting
+    from .textures import Lookup
 
 # Products of a light and a few distances must stay within single precision.
 _LARGEST = 1e30
@@ -21,31 +22,48 @@ _LARGEST = 1e30
 
 class Colours:
     """
-    One spectrum for each material of a kind.
+    One spectrum for each material of a kind, or a texture of spectra.
+
+    Parameters
+    ----------
+    rows : (materials, bands) float32 array
+    textures : materials' rows -> what is looked up instead
 
     Attributes
     ----------
     bright : (materials,) bool array, False for those that are black in every band
     """
 
-    def __init__(self, rows: FloatArray) -> None:
-        self._rows = rows
+    def __init__(self, rows: FloatArray, textures: Mapping[int, Lookup]) -> None:
+        self._rows, self._textures = rows, textures
         self.bright: NDArray[np.bool_] = rows.any(axis=1)
+        self.bright[list(textures)] = True
 
     def at(self, met: Meeting) -> FloatArray:
         """Return the (n, bands) float32 spectra where paths met surfaces."""
-        return self._rows.take(met.row, axis=0)
+        found = self._rows.take(met.row, axis=0)
+        for row, texture in self._textures.items():
+            where = np.nonzero(met.row == row)[0]
+            if len(where) and met.places.uvs is not None:
+                found[where] = texture.at(met.places.uvs.take(where, axis=1))
+        return found
 
 
 class Palette(NamedTuple):
     """What makes colours out of the parameters of materials."""
 
     film: Film
+    textures: Mapping[str, Lookup]
 
     def colours(self, materials: Sequence[Material], name: str) -> Colours:
         """Return the spectra of one parameter of materials."""
-        named = [(f"{name} of material {one.id}", one.parameters[name]) for one in materials]
-        return Colours(table(named, self.film))
+        said = [one.parameters[name] for one in materials]
+        named = [
+            (f"{name} of material {one.id}", 0.0 if isinstance(value, TextureUse) else value)
+            for one, value in zip(materials, said, strict=True)
+        ]
+        used = {row: value.texture for row, value in enumerate(said) if isinstance(value, TextureUse)}
+        return Colours(table(named, self.film), {row: self.textures[id] for row, id in used.items()})
 
 
 def numbers(materials: Sequence[Material], name: str) -> FloatArray:

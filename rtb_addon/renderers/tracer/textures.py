@@ -1,0 +1,90 @@
+"""Spectra that vary over a surface: pictures and checkerboards, looked up by texture coordinates."""
+
+from __future__ import annotations
+
+from pathlib import Path
+from typing import Protocol
+
+import numpy as np
+
+from ...scene.render_scene import Film, IntArray, Texture
+from ...spectra import FloatArray
+from ..pictures import read_picture
+from .tables import table
+
+
+class Lookup(Protocol):
+    """A texture ready to be asked."""
+
+    def at(self, uvs: FloatArray) -> FloatArray:
+        """Return (n, bands) float32 spectra at (2, n) texture coordinates."""
+        ...
+
+
+class Checkerboard:
+    """A board of two spectra; the check at the origin is even."""
+
+    def __init__(self, texture: Texture, film: Film) -> None:
+        said = texture.parameters
+        named = [(f"{name} of texture {texture.id}", said[name]) for name in ("evenColor", "oddColor")]
+        self._colours = table(named, film)
+        self._place = _pairs(texture, "checksPer", "offset") / [[2], [1]]
+
+    def at(self, uvs: FloatArray) -> FloatArray:
+        """Return the spectrum of each check."""
+        first, second = (uvs * self._place[0, :, None] + self._place[1, :, None]) % 1 > 0.5
+        return self._colours.take((first != second).astype(int), axis=0)
+
+
+class Bitmap:
+    """A picture, of colours or of spectra (see pictures.py); V grows upwards, texels are their middles."""
+
+    def __init__(self, texture: Texture, film: Film) -> None:
+        said = texture.parameters
+        picture = read_picture(Path(str(said["filename"])), float(said["gamma"]))  # type: ignore[arg-type]
+        self._texels = picture.texels.reshape(-1, picture.texels.shape[2])
+        self._height, self._width, _ = picture.texels.shape
+        self._weights = picture.weights(film.bands, film.band_kind).astype(np.float32)
+        self._nearest, self._wrap = said["filterMode"] == "nearest", str(said["wrapMode"])
+        self._place = _pairs(texture, "scale", "offset")
+
+    def at(self, uvs: FloatArray) -> FloatArray:
+        """Return the texel at each place, or what the four around it are on average."""
+        u, v = uvs * self._place[0, :, None] + self._place[1, :, None]
+        mixed = np.zeros((len(u), self._texels.shape[1]), np.float32)
+        for row, down in self._beside(1 - v, self._height):
+            for column, along in self._beside(u, self._width):
+                mixed += self._texels[row * self._width + column] * (down * along)[:, None]
+        return mixed @ self._weights
+
+    def _beside(self, place: FloatArray, count: int) -> list[tuple[IntArray, FloatArray]]:
+        """Return the two texels that places lie between in one direction, and how much each counts."""
+        middle = place * count - 0.5
+        low: FloatArray = np.floor(middle)
+        share: FloatArray = (middle - low).astype(np.float32)
+        if self._nearest:
+            share = (share >= 0.5).astype(np.float32)
+        return [(self._wrapped(low, count), 1 - share), (self._wrapped(low + 1, count), share)]
+
+    def _wrapped(self, place: FloatArray, count: int) -> IntArray:
+        """Return the number of a texel that may lie outside the picture."""
+        if self._wrap == "repeat":
+            return (place % count).astype(int)
+        if self._wrap == "mirror":
+            again = place % (2 * count)
+            return np.minimum(again, 2 * count - 1 - again).astype(int)
+        return place.clip(0, count - 1).astype(int)
+
+
+KINDS = {"checkerboard": Checkerboard, "bitmap": Bitmap}
+
+
+def lookup(texture: Texture, film: Film) -> Lookup:
+    """Return a texture ready to be asked for the bands of a film."""
+    return KINDS[texture.kind](texture, film)
+
+
+def _pairs(texture: Texture, scale: str, offset: str) -> FloatArray:
+    """Return how texture coordinates are scaled, then moved: a row each, a column for U and V."""
+    said = texture.parameters
+    return np.array([[said[f"{name}{axis}"] for axis in "UV"] for name in (scale, offset)], float)
