@@ -79,7 +79,7 @@ def path_radiance(scene, tables: Tables, sampler, ray, depth) -> list:
         before_delta = mi.has_flag(turn.sampled_type, mi.BSDFFlags.Delta)
         bounce += 1
         active = going & (scalar != 0)
-    return radiance
+    return tables.in_the_end(radiance)
 
 
 def sample_light(scene, tables, sampler, si, active):
@@ -145,6 +145,8 @@ def _add_suns(tables, ray, radiance, spectral, weight):
 
 
 def _add(radiance, spectral, emission, weight):
+    if emission is None:
+        return [dr.fma(b, weight, total) for total, b in zip(radiance, spectral, strict=True)]
     return [dr.fma(b * e, weight, total) for total, b, e in zip(radiance, spectral, emission, strict=True)]
 
 

@@ -37,6 +37,7 @@ class Tables:
     metals : most lobes of metals that a material has; they are its first
     beams : whether some emitter is a spot
     suns : number of emitters that are discs in the sky
+    single : whether there is one emitter, whose spectrum can wait until the end
     """
 
     def __init__(self, scene, source: OneHotScene, bands: Bands, kind: BandKind) -> None:
@@ -45,6 +46,8 @@ class Tables:
         emitters = list(source.emitters.values())
         self.beams = any(emitter.outer > -2 for emitter in emitters)
         self.suns = sum(emitter.narrowness > 0 for emitter in emitters)
+        # Many scenes have one lamp: its spectrum is then multiplied once a path instead of twice a bounce.
+        self.single = len(emitters) == 1 and self.suns == 0
         self._fill(source, emitters, bands, kind)
         self.pictures = _pictures(source, bands, kind, self.padded_bands)
         self._bsdf_rows = _rows_by_pointer(
@@ -86,9 +89,16 @@ class Tables:
         """Return the row of each emitter."""
         return dr.gather(mi.UInt32, self._emitter_rows, _number(emitter), active)
 
-    def emission(self, row, active) -> list:
-        """Return an emitter's spectrum, one mi.Float a band."""
-        return self._bands(self._emissions, row, active)
+    def emission(self, row, active) -> list | None:
+        """Return an emitter's spectrum, one mi.Float a band; None where there is one emitter only."""
+        return None if self.single else self._bands(self._emissions, row, active)
+
+    def in_the_end(self, radiance: list) -> list:
+        """Return what paths have gathered, times the spectrum of the only emitter, which was left out so far."""
+        if not self.single:
+            return radiance
+        glow = self._bands(self._emissions, mi.UInt32(0), True)
+        return [gathered * each for gathered, each in zip(radiance, glow, strict=True)]
 
     def material_row(self, bsdf, active) -> Any:
         """Return the row of each material."""
