@@ -28,7 +28,15 @@ from .select_variable import RTB_OT_select_variable
 from .show_montage import RTB_OT_show_montage
 from .tell import RTB_OT_tell
 from .turn_page import RTB_OT_turn_page
+from .use_blackbody import RTB_OT_use_blackbody
+from .use_colour import RTB_OT_use_colour
+from .use_daylight import RTB_OT_use_daylight
+from .use_flat_spectrum import RTB_OT_use_flat_spectrum
+from .use_library_spectrum import RTB_OT_use_library_spectrum
 from .use_spectra import RTB_OT_use_spectra
+from .use_spectrum_file import RTB_OT_use_spectrum_file
+from .use_variable import RTB_OT_use_variable
+from .vary_in_recipe import RTB_OT_vary_in_recipe
 
 _register, _unregister = register_classes_factory(
     (
@@ -38,6 +46,14 @@ _register, _unregister = register_classes_factory(
         RTB_OT_show_montage,
         RTB_OT_use_spectra,
         RTB_OT_tell,
+        RTB_OT_use_library_spectrum,
+        RTB_OT_use_spectrum_file,
+        RTB_OT_use_flat_spectrum,
+        RTB_OT_use_daylight,
+        RTB_OT_use_blackbody,
+        RTB_OT_use_colour,
+        RTB_OT_use_variable,
+        RTB_OT_vary_in_recipe,
         RTB_OT_add_condition,
         RTB_OT_add_variable,
         RTB_OT_copy_conditions,

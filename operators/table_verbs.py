@@ -1,5 +1,6 @@
 """What verbs on the table of conditions have in common."""
 
+from ..rtb_addon.blender.redrawing import redraw_panels
 from ..rtb_addon.errors import RecipeError
 
 
@@ -14,6 +15,7 @@ class TableVerb:
         except RecipeError as error:
             self.report({"ERROR"}, str(error))
             return {"CANCELLED"}
+        redraw_panels()
         if said:
             self.report({"INFO"}, said)
         return {"FINISHED"}

@@ -8,6 +8,7 @@ with warnings.catch_warnings():
     import colour
     from colour.colorimetry import SDS_BASIS_FUNCTIONS_CIE_ILLUMINANT_D_SERIES as DAYLIGHT
 
+OBSERVER = colour.MSDS_CMFS["CIE 1931 2 Degree Standard Observer"]
 DATA = Path(__file__).resolve().parents[1] / "rtb_addon" / "data"
 CHECKERS = ("BabelColor Average", "ColorChecker N Ohta", "ISO 17321-1")
 ORIGIN = f"# from colour-science {colour.__version__}; see SOURCES.md"
@@ -39,6 +40,11 @@ def main() -> None:
     columns = [DAYLIGHT["S0"].wavelengths, *(DAYLIGHT[name].values for name in ("S0", "S1", "S2"))]
     basis = [",".join(map(number, line)) for line in zip(*columns, strict=True)]
     write("daylight_basis.csv", "wavelength [nm], S0, S1, S2 [relative]", basis)
+    observer = OBSERVER.copy().align(colour.SpectralShape(360, 830, 5))
+    matching = [
+        ",".join(map(number, line)) for line in zip(observer.wavelengths, *observer.values.T, strict=True)
+    ]
+    write("cie_1931.csv", "wavelength [nm], x, y, z of the CIE 1931 2 degree observer", matching)
 
 
 if __name__ == "__main__":

@@ -3,7 +3,8 @@
 import bpy
 from bpy.utils import register_classes_factory
 
-from . import menus, progress
+from ..rtb_addon.blender import curve_previews
+from . import menus, progress, spectrum_menus
 from .condition_menus import RTB_MT_conditions, RTB_MT_designs, RTB_MT_variable
 from .conditions import RTB_PT_conditions, RTB_UL_conditions
 from .recipe import RTB_PT_light_paths, RTB_PT_montage, RTB_PT_recipe
@@ -17,6 +18,7 @@ _register, _unregister = register_classes_factory(
         RTB_PT_recipe,
         RTB_PT_light_paths,
         RTB_PT_montage,
+        *spectrum_menus.MENUS.values(),
         RTB_UL_conditions,
         RTB_MT_designs,
         RTB_MT_variable,
@@ -35,13 +37,17 @@ def register() -> None:
     _register()
     # Of the window and not of the scene: which columns are shown is neither saved nor undone.
     bpy.types.WindowManager.rtb_first_variable = bpy.props.IntProperty(options={"HIDDEN"}, min=0)
+    curve_previews.register()
     menus.register()
+    spectrum_menus.register()
     progress.register()
 
 
 def unregister() -> None:
     """Take them back."""
     progress.unregister()
+    spectrum_menus.unregister()
     menus.unregister()
+    curve_previews.unregister()
     del bpy.types.WindowManager.rtb_first_variable
     _unregister()

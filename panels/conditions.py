@@ -10,6 +10,7 @@ from ..operators.select_variable import RTB_OT_select_variable
 from ..operators.turn_page import RTB_OT_turn_page
 from ..rtb_addon.blender.folders import recipe_name
 from .condition_menus import RTB_MT_conditions
+from .spectrum_menus import RTB_MT_cell
 
 CELL = 66  # narrowest cell in which a word can be read [pixels at scale 1]
 BESIDE = 52  # what borders and the buttons at the right take [pixels at scale 1]
@@ -113,4 +114,6 @@ def draw_active_cell(layout, settings) -> None:
     row, number = settings.active_condition, settings.active_variable
     if row < len(settings.conditions) and number < len(settings.conditions[row].cells):
         layout.label(text=settings.variables[number].name)
-        layout.prop(settings.conditions[row].cells[number], "value", text="")
+        line = layout.row(align=True)
+        line.prop(settings.conditions[row].cells[number], "value", text="")
+        line.menu(RTB_MT_cell.bl_idname, text="", icon="DOWNARROW_HLT")

@@ -36,4 +36,4 @@ class SpectralPanel:
             return
         body.use_property_split = True
         body.use_property_decorate = False
-        self.draw_spectra(body, settings)
+        self.draw_spectra(body, context, settings)

@@ -2,6 +2,8 @@
 
 import bpy
 
+from .spectrum_field import draw_spectrum
+
 
 class RTB_PT_spectral_emission(bpy.types.Panel):
     """What light the active mesh sends out, from the side of its normals"""
@@ -25,6 +27,6 @@ class RTB_PT_spectral_emission(bpy.types.Panel):
         layout.use_property_split = True
         layout.use_property_decorate = False
         layout.active = settings.emits
-        layout.prop(settings, "spectrum")
+        draw_spectrum(layout, context, settings, "EMISSION")
         layout.prop(settings, "emission")
         layout.prop(settings, "amount")

@@ -3,6 +3,7 @@
 import bpy
 
 from .spectra import SpectralPanel
+from .spectrum_field import draw_spectrum
 
 
 class RTB_PT_spectral_light(SpectralPanel, bpy.types.Panel):
@@ -13,5 +14,5 @@ class RTB_PT_spectral_light(SpectralPanel, bpy.types.Panel):
     bl_context = "data"
     thing = "light"
 
-    def draw_spectra(self, layout, settings):
-        layout.prop(settings, "spectrum")
+    def draw_spectra(self, layout, context, settings):
+        draw_spectrum(layout, context, settings, "LIGHT")

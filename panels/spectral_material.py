@@ -3,6 +3,7 @@
 import bpy
 
 from .spectra import SpectralPanel
+from .spectrum_field import draw_spectrum
 
 
 class RTB_PT_spectral_material(SpectralPanel, bpy.types.Panel):
@@ -13,6 +14,6 @@ class RTB_PT_spectral_material(SpectralPanel, bpy.types.Panel):
     bl_context = "material"
     thing = "material"
 
-    def draw_spectra(self, layout, settings):
+    def draw_spectra(self, layout, context, settings):
         layout.prop(settings, "model")
-        layout.prop(settings, "reflectance")
+        draw_spectrum(layout, context, settings, "REFLECTANCE")

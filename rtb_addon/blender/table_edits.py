@@ -7,7 +7,7 @@ from collections.abc import Iterable, Iterator, Sequence
 
 import bpy
 
-from ..errors import RecipeError
+from ..errors import RecipeError, choices
 from .conditions import IMAGE_NAME
 
 _NO_NAME = re.compile(r"[()\t\r\n]")
@@ -129,6 +129,12 @@ def columns(settings, names: Iterable[str]) -> list[int]:
     for name in new:
         add_variable(settings, name)
     return [[*there, *new].index(name) for name in wanted]
+
+
+def refuse_unknown(settings, name: str) -> None:
+    """Raise a sentence if no variable is called that."""
+    if name not in (names := [each.name for each in settings.variables]):
+        raise RecipeError(f"no variable is called {name}, there are {choices(name, names)}")
 
 
 def free_name(name: str, taken: Iterable[str]) -> str:

@@ -45,6 +45,10 @@ class RecordingLayout:
         assert active in active_owner.bl_rna.properties
         self.drawn.append(("list", kind))
 
+    def template_icon(self, icon_value: int, scale: float) -> None:
+        assert icon_value >= 0
+        self.drawn.append(("icon", icon_value))
+
     def label(self, text: str = "", **_) -> None:
         self.drawn.append(("label", text))
 

@@ -19,7 +19,12 @@ def panel(extension):
         layout = RecordingLayout()
         attributes = {key: getattr(kind, key) for base in kind.__mro__ for key in vars(base) if key[0] != "_"}
         stand_in = type(name, (), {**attributes, "layout": layout})()
-        seen = SimpleNamespace(scene=bpy.context.scene, region=SimpleNamespace(width=250), **context)
+        seen = SimpleNamespace(
+            scene=bpy.context.scene,
+            region=SimpleNamespace(width=250),
+            preferences=bpy.context.preferences,
+            **context,
+        )
         assert not hasattr(kind, "poll") or kind.poll(seen)
         stand_in.draw(seen)
         return layout

@@ -2,6 +2,7 @@
 
 import sys
 import time
+from functools import partial
 from pathlib import Path
 
 import bpy
@@ -14,18 +15,67 @@ MANY = 1000
 
 
 def looks(driver: Driver, folder: Path):
-    """Look at the table: none, six rows, a dialog, a wide one, a thousand rows."""
+    """Look at spectra and at the table: none, six rows, dialogs, a thousand rows."""
     yield from open_sidebar(driver)
     driver.photograph("conditions-none")
+    yield from vary_by_click(driver)
     make_recipe(folder, 6, "tracer", samples=8, size=(80, 60))
     bpy.ops.rtb.add_variable(name="gloss", value="0.1")
     bpy.context.scene.rtb.active_variable = 0
     yield 0.6
     driver.photograph("conditions")
-    yield from dialog(driver, "fill_from_library", "conditions-library")
-    yield from dialog(driver, "fill_random", "conditions-random")
-    yield from menu(driver, "RTB_MT_conditions", "conditions-menu")
+    yield from look_at_spectra(driver)
+    yield from dialog(driver, bpy.ops.rtb.fill_from_library, "conditions-library")
+    yield from dialog(driver, bpy.ops.rtb.fill_random, "conditions-random")
+    yield from dialog(driver, partial(bpy.ops.wm.call_menu, name="RTB_MT_conditions"), "conditions-menu")
+    yield from dialog(driver, partial(bpy.ops.wm.call_menu, name="RTB_MT_cell"), "spectrum-menu")
     yield from scroll_many_rows(driver)
+
+
+def look_at_spectra(driver: Driver):
+    """Photograph the curves of a material, of a lamp, and of what is no spectrum."""
+    for tab, thing, picture in (
+        ("MATERIAL", "Cube", "spectrum-material"),
+        ("DATA", "Light", "spectrum-light"),
+    ):
+        bpy.context.view_layer.objects.active = bpy.data.objects[thing]
+        driver.area("PROPERTIES").spaces.active.context = tab
+        yield 1.2
+        driver.photograph(picture)
+    bpy.data.lights["Light"].rtb.spectrum = "D64"
+    yield 0.8
+    driver.photograph("spectrum-wrong")
+    bpy.data.lights["Light"].rtb.spectrum = "D65"
+
+
+def vary_by_click(driver: Driver):
+    """Right-click the reflectance of the cube, choose Vary in Recipe, then choose a blue from the library."""
+    material = bpy.data.materials["Material"]
+    material.rtb.use_spectra, material.rtb.reflectance = True, "0.5"
+    driver.area("PROPERTIES").spaces.active.context = "MATERIAL"
+    yield 1.0
+    panel = driver.region("PROPERTIES", "WINDOW")
+    with bpy.context.temp_override(window=driver.window, area=driver.area("PROPERTIES"), region=panel):
+        bpy.ops.rtb.use_library_spectrum("INVOKE_DEFAULT", field="REFLECTANCE")
+    yield 0.5
+    for letter in "yellow gr":
+        key = "SPACE" if letter == " " else letter.upper()
+        driver.window.event_simulate(type=key, value="PRESS", unicode=letter, x=panel.x + 90, y=panel.y + 200)
+        yield 0.1
+        driver.window.event_simulate(type=key, value="RELEASE", x=panel.x + 90, y=panel.y + 200)
+    yield 0.4
+    driver.photograph("spectrum-search")
+    for value in ("PRESS", "RELEASE"):
+        driver.window.event_simulate(type="RET", value=value, x=panel.x + 90, y=panel.y + 200)
+        yield 0.3
+    driver.report["searched"] = material.rtb.reflectance
+    # The field below the slots, the name and the model.
+    yield from choose_last_entry(driver, panel.x + panel.width - 60, panel.y + panel.height - 241)
+    yield 0.8
+    driver.photograph("varied")
+    settings = bpy.context.scene.rtb
+    cells = [cell.value for row in settings.conditions for cell in row.cells]
+    driver.report["varied"] = [material.rtb.reflectance, [each.name for each in settings.variables], cells]
 
 
 def open_sidebar(driver: Driver):
@@ -37,8 +87,21 @@ def open_sidebar(driver: Driver):
     yield 1.0
 
 
-def dialog(driver: Driver, verb: str, picture: str):
-    """Open an operator's dialog in the middle of the viewport, photograph it and leave it."""
+def choose_last_entry(driver: Driver, x: int, y: int):
+    """Right-click there, photograph the menu, and choose its last entry."""
+    moved = (("MOUSEMOVE", "NOTHING"),) * 2
+    for kind, value in (*moved, ("RIGHTMOUSE", "PRESS"), ("RIGHTMOUSE", "RELEASE")):
+        driver.window.event_simulate(type=kind, value=value, x=x, y=y)
+        yield 0.2
+    driver.photograph("vary-menu")
+    for key in ("END", "RET"):
+        for value in ("PRESS", "RELEASE"):
+            driver.window.event_simulate(type=key, value=value, x=x, y=y)
+            yield 0.2
+
+
+def dialog(driver: Driver, verb, picture: str):
+    """Open a dialog or a menu in the middle of the viewport, photograph it and leave it."""
     viewport = driver.area("VIEW_3D")
     x, y = viewport.x + viewport.width // 2, viewport.y + viewport.height // 2
     driver.window.event_simulate(type="MOUSEMOVE", value="NOTHING", x=x, y=y)
@@ -46,23 +109,7 @@ def dialog(driver: Driver, verb: str, picture: str):
     with bpy.context.temp_override(
         window=driver.window, area=viewport, region=driver.region("VIEW_3D", "UI")
     ):
-        getattr(bpy.ops.rtb, verb)("INVOKE_DEFAULT")
-    yield 0.6
-    driver.photograph(picture)
-    yield from driver.press("ESC", "VIEW_3D")
-    yield 0.3
-
-
-def menu(driver: Driver, name: str, picture: str):
-    """Open a menu in the middle of the viewport, photograph it and leave it."""
-    viewport = driver.area("VIEW_3D")
-    x, y = viewport.x + viewport.width // 2, viewport.y + viewport.height // 2
-    driver.window.event_simulate(type="MOUSEMOVE", value="NOTHING", x=x, y=y)
-    yield 0.2
-    with bpy.context.temp_override(
-        window=driver.window, area=viewport, region=driver.region("VIEW_3D", "UI")
-    ):
-        bpy.ops.wm.call_menu(name=name)
+        verb("INVOKE_DEFAULT")
     yield 0.6
     driver.photograph(picture)
     yield from driver.press("ESC", "VIEW_3D")

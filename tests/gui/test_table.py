@@ -1,4 +1,4 @@
-"""The table of conditions in a real window; photographs stay in build/screenshots."""
+"""Spectra and the table of conditions in a real window; photographs stay in build/screenshots."""
 
 from pathlib import Path
 
@@ -12,6 +12,13 @@ PANELS = (
     "conditions-random",
     "conditions-menu",
     "conditions-many",
+    "spectrum-material",
+    "spectrum-light",
+    "spectrum-wrong",
+    "spectrum-search",
+    "spectrum-menu",
+    "vary-menu",
+    "varied",
 )
 
 
@@ -28,6 +35,14 @@ def report(blender, tmp_path_factory):
 def test_every_photograph_shows_something(report, name):
     assert (PICTURES / f"{name}.png").is_file()
     assert report["colours"][name] > 500
+
+
+def test_a_spectrum_is_found_by_typing_a_part_of_its_name(report):
+    assert report["searched"].endswith("/yellow green")
+
+
+def test_a_right_click_makes_a_reflectance_a_variable(report):
+    assert report["varied"] == ["(reflectance)", ["reflectance"], [report["searched"]]]
 
 
 def test_a_thousand_rows_scroll_smoothly(report):

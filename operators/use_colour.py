@@ -1,0 +1,21 @@
+"""The spectrum that a colour stands for."""
+
+import bpy
+
+from .spectrum_verbs import AskingVerb
+from .use_spectra import in_words
+
+
+class RTB_OT_use_colour(AskingVerb, bpy.types.Operator):
+    """A smooth spectrum that shows a colour under D65"""
+
+    bl_idname = "rtb.use_colour"
+    bl_label = "Colour"
+
+    colour: bpy.props.FloatVectorProperty(
+        name="Colour", subtype="COLOR", default=(0.8, 0.2, 0.1), min=0.0, max=1.0, size=3
+    )
+    asked = "colour"
+
+    def text(self, context, owner):
+        return in_words(tuple(self.colour))

@@ -1,0 +1,132 @@
+"""
+The curves that panels show, as previews of Blender's.
+
+A panel asks with the text of a spectrum and gets what is there: drawing costs it a look into a dictionary.
+What is not there yet is made when Blender is idle, a few milliseconds each, and the panels are drawn anew.
+"""
+
+from __future__ import annotations
+
+from typing import NamedTuple
+
+import bpy
+import bpy.utils.previews
+
+from ..errors import RecipeError
+from .folders import blend_folder
+from .redrawing import redraw_panels
+
+MOST = 128  # pictures that are kept
+
+
+class Shown(NamedTuple):
+    """
+    What a panel shows of a spectrum.
+
+    Parameters
+    ----------
+    icon : the number of its picture; 0 while there is none
+    sentence : why there is none, if the text is no spectrum
+    """
+
+    icon: int = 0
+    sentence: str = ""
+
+
+_shown: dict[tuple, Shown] = {}
+_wanted: dict[tuple, None] = {}
+_pictures = None
+
+
+def shown(text: str, shines: bool, side: int) -> Shown:
+    """
+    Return what there is to see of a spectrum; what is not there yet comes by itself.
+
+    Parameters
+    ----------
+    shines : whether it is light, and not what a surface does with light
+    side : of the square picture [pixels]
+    """
+    key = (text, shines, side, bpy.data.filepath)
+    if key not in _shown and key not in _wanted:
+        _wanted[key] = None
+        if not bpy.app.background and not bpy.app.timers.is_registered(_make_and_redraw):
+            bpy.app.timers.register(_make_and_redraw)
+    return _shown.get(key, Shown())
+
+
+def make_wanted() -> int:
+    """Make what panels have asked for, and return how much that was."""
+    wanted = list(_wanted)
+    _wanted.clear()
+    if len(_shown) + len(wanted) > MOST:
+        forget()
+    for key in wanted:
+        _shown[key] = _made(key)
+    return len(wanted)
+
+
+def forget() -> None:
+    """Forget all pictures, for files that they were made from may have changed."""
+    _shown.clear()
+    if _pictures is not None:
+        _pictures.clear()
+
+
+def _made(key: tuple) -> Shown:
+    text, shines, side, _ = key
+    try:
+        pixels = _pixels(text, shines, side)
+    except (RecipeError, OSError) as error:
+        return Shown(0, str(error))
+    assert _pictures is not None
+    preview = _pictures.new(repr(key))
+    preview.image_size = pixels.shape[1], pixels.shape[0]
+    preview.image_pixels_float.foreach_set(pixels.ravel())
+    return Shown(preview.icon_id)
+
+
+def _pixels(text: str, shines: bool, side: int):
+    # numpy and what stands on it take longer to come than enabling may last.
+    from .. import curves, swatches
+    from ..spectra import Unit, library
+    from ..spectra.spoken import spectrum_from
+
+    spectrum = spectrum_from(text, Unit.SHAPE if shines else Unit.RATIO, blend_folder())
+    light = library.find("D65")
+    colour = swatches.light_colour(spectrum) if shines else swatches.surface_colour(spectrum, light)
+    ink = bpy.context.preferences.themes[0].user_interface.wcol_regular.text
+    scale = bpy.context.preferences.system.ui_scale or 1.0  # 0 where there is no window
+    magnified = max(round(scale), 1)
+    picture = curves.curve_picture(spectrum, side, colour, [255 * each for each in ink], magnified)
+    picture[..., :3] *= picture[..., 3:]  # as Blender's previews are
+    return picture
+
+
+def _make_and_redraw() -> None:
+    if make_wanted():
+        redraw_panels()
+
+
+@bpy.app.handlers.persistent
+def _after_loading(*_) -> None:
+    forget()
+
+
+def register() -> None:
+    """Make room for pictures."""
+    global _pictures
+    _pictures = bpy.utils.previews.new()
+    bpy.app.handlers.load_post.append(_after_loading)
+
+
+def unregister() -> None:
+    """Give all pictures back."""
+    global _pictures
+    if bpy.app.timers.is_registered(_make_and_redraw):
+        bpy.app.timers.unregister(_make_and_redraw)
+    bpy.app.handlers.load_post.remove(_after_loading)
+    _shown.clear()
+    _wanted.clear()
+    bpy.utils.previews.remove(_pictures)
+    _pictures = None

@@ -1,0 +1,203 @@
+"""Fields that hold a spectrum: the ways to say one, its curve, and how it becomes a variable."""
+
+import math
+import sys
+from types import SimpleNamespace
+
+import bpy
+import numpy as np
+import pytest
+
+from tests.blender.stand_in_layout import RecordingLayout
+
+
+@pytest.fixture
+def material(extension):
+    """The default scene's material, with spectra."""
+    bpy.ops.wm.read_homefile(use_factory_startup=True)
+    material = bpy.data.materials["Material"].rtb
+    material.use_spectra = True
+    return material
+
+
+@pytest.fixture
+def previews(library):
+    """The module that makes curves, with none made."""
+    module = library("blender.curve_previews")
+    module.forget()
+    return module
+
+
+def sentence(operator, **properties) -> str:
+    with pytest.raises(RuntimeError) as caught:
+        operator(**properties)
+    return str(caught.value).strip()
+
+
+def test_every_way_writes_what_somebody_would_type(material):
+    for verb, asked, text in (
+        (bpy.ops.rtb.use_flat_spectrum, {"value": 0.25}, "0.25"),
+        (bpy.ops.rtb.use_daylight, {"kelvin": 5000}, "daylight 5000"),
+        (bpy.ops.rtb.use_blackbody, {"kelvin": 2856}, "blackbody 2856"),
+        (bpy.ops.rtb.use_library_spectrum, {"name": "BabelColor Average/blue"}, "BabelColor Average/blue"),
+        (bpy.ops.rtb.use_colour, {"colour": (0.5, 0.5, 0.5)}, "0.5"),
+    ):
+        assert verb(field="REFLECTANCE", **asked) == {"FINISHED"}
+        assert material.reflectance == text
+
+
+@pytest.mark.parametrize("field", ["REFLECTANCE", "LIGHT", "WORLD", "EMISSION", "CELL"])
+def test_every_field_is_written_where_it_belongs(material, field):
+    scene, light = bpy.context.scene, bpy.data.objects["Light"]
+    scene.rtb.set_conditions(["paint"], [["0.1"]])
+    with bpy.context.temp_override(object=light if field == "LIGHT" else bpy.data.objects["Cube"]):
+        bpy.ops.rtb.use_daylight(field=field, kelvin=7500)
+    written = {
+        "REFLECTANCE": material.reflectance,
+        "LIGHT": light.data.rtb.spectrum,
+        "WORLD": scene.world.rtb.spectrum,
+        "EMISSION": bpy.data.objects["Cube"].rtb.spectrum,
+        "CELL": scene.rtb.conditions[0].cells[0].value,
+    }
+    assert [name for name, text in written.items() if text == "daylight 7500"] == [field]
+
+
+def test_a_file_is_named_relative_to_the_blend_file(material, tmp_path):
+    (tmp_path / "paint.spd").write_text("400 0.2\n700 0.6\n")
+    bpy.ops.wm.save_as_mainfile(filepath=str(tmp_path / "paint.blend"))
+    bpy.ops.rtb.use_spectrum_file(field="REFLECTANCE", filepath=str(tmp_path / "paint.spd"))
+    assert bpy.data.materials["Material"].rtb.reflectance == "//paint.spd"
+
+
+def test_a_file_that_is_no_spectrum_is_refused_with_its_line(material, tmp_path):
+    before = material.reflectance
+    (tmp_path / "odd.spd").write_text("400 0.2\n700 red\n")
+    assert "odd.spd:2" in sentence(
+        bpy.ops.rtb.use_spectrum_file, field="REFLECTANCE", filepath=str(tmp_path / "odd.spd")
+    )
+    assert material.reflectance == before
+
+
+def test_without_a_material_the_sentence_says_what_to_select(material):
+    bpy.context.view_layer.objects.active = None
+    assert "no material is active" in sentence(bpy.ops.rtb.use_flat_spectrum, field="REFLECTANCE")
+
+
+def test_varying_makes_a_column_that_says_what_the_field_said(material):
+    material.reflectance = "0.4"
+    bpy.ops.rtb.vary_in_recipe(field="REFLECTANCE")
+    settings = bpy.context.scene.rtb
+    assert material.reflectance == "(reflectance)"
+    assert [each.name for each in settings.variables] == ["reflectance"]
+    assert [cell.value for row in settings.conditions for cell in row.cells] == ["0.4"]
+    assert "varies already" in sentence(bpy.ops.rtb.vary_in_recipe, field="REFLECTANCE")
+    with bpy.context.temp_override(object=bpy.data.objects["Light"]):
+        bpy.ops.rtb.vary_in_recipe(field="LIGHT")
+    assert [each.name for each in settings.variables] == ["reflectance", "light"]
+    assert [cell.value for cell in settings.conditions[0].cells] == ["0.4", "D65"]
+
+
+def test_varying_changes_nothing_of_what_the_recipe_renders(material, library):
+    bpy.context.scene.rtb.folder = "/nowhere/"
+    material.reflectance = "BabelColor Average/red"
+    read_recipe = library("blender").read_recipe
+    before = read_recipe(bpy.context.scene)
+    bpy.ops.rtb.vary_in_recipe(field="REFLECTANCE")
+    after = read_recipe(bpy.context.scene)
+    assert sorted(before.resources.values()) == sorted(after.resources.values())
+    assert before.parent == after.parent
+    assert after.conditions.rows[0].cells["reflectance"] == "resources/BabelColor-Average-red.spd"
+
+
+def test_undo_takes_a_variable_and_its_field_back_together(material):
+    material.reflectance = "0.4"
+    bpy.ops.ed.undo_push(message="before")
+    bpy.ops.rtb.vary_in_recipe("EXEC_DEFAULT", True, field="REFLECTANCE")
+    bpy.ops.ed.undo()
+    assert bpy.data.materials["Material"].rtb.reflectance == "0.4"
+    assert not bpy.context.scene.rtb.variables
+
+
+def test_a_variable_of_the_table_can_be_taken_and_no_other(material):
+    bpy.context.scene.rtb.set_conditions(["paint"], [["0.1"]])
+    bpy.ops.rtb.use_variable(field="REFLECTANCE", variable="paint")
+    assert material.reflectance == "(paint)"
+    assert "there are paint" in sentence(bpy.ops.rtb.use_variable, field="REFLECTANCE", variable="pain")
+
+
+def test_the_right_click_offers_to_vary_spectra_and_nothing_else(material, extension):
+    menus = sys.modules[f"{extension}.panels.spectrum_menus"]
+    offered = {}
+    for group in (material, bpy.context.scene.rtb, bpy.data.lights["Light"].rtb):
+        for name, kind in group.bl_rna.properties.items():
+            layout = RecordingLayout()
+            context = SimpleNamespace(button_prop=kind, button_pointer=group)
+            menus.draw_in_context_menu(SimpleNamespace(layout=layout), context)
+            offered[type(group).__name__, name] = layout.names("operator")
+    assert [key for key, operators in offered.items() if operators] == [
+        ("RTB_PG_material", "reflectance"),
+        ("RTB_PG_light", "spectrum"),
+    ]
+
+
+@pytest.mark.parametrize("menu", ["reflectance", "light", "world", "emission", "cell"])
+def test_every_menu_offers_the_library_first(material, menu):
+    bpy.context.scene.rtb.set_conditions(["paint"], [["0.1"]])
+    kind, layout = getattr(bpy.types, f"RTB_MT_{menu}"), RecordingLayout()
+    kind.draw(
+        SimpleNamespace(layout=layout, field=kind.field, draw_variables=variables_of(kind)), bpy.context
+    )
+    assert layout.names("operator")[0] == "rtb.use_library_spectrum"
+    assert ("rtb.use_variable" in layout.names("operator")) == (menu != "cell")
+
+
+def variables_of(kind):
+    """Return a menu's drawing of variables, for a stand-in of it."""
+    return lambda layout, settings: kind.draw_variables(SimpleNamespace(field=kind.field), layout, settings)
+
+
+def test_a_curve_is_made_once_and_drawing_only_looks_it_up(material, previews, monkeypatch):
+    assert previews.shown("D65", True, 120) == previews.Shown()
+    assert previews.make_wanted() == 1
+    made = []
+    monkeypatch.setattr(previews, "_made", lambda key: made.append(key))
+    for _ in range(100):
+        assert previews.shown("D65", True, 120).sentence == ""
+    assert previews.make_wanted() == 0
+    assert not made
+
+
+def test_the_pictures_pixels_are_those_of_the_curve(material, previews, library):
+    previews.shown("BabelColor Average/blue", False, 120)
+    previews.make_wanted()
+    (preview,) = previews._pictures.values()
+    pixels = np.empty(math.prod(preview.image_size) * 4, np.float32)
+    preview.image_pixels_float.foreach_get(pixels)
+    swatches, find = library("swatches"), library("spectra.library").find
+    colour = swatches.surface_colour(find("BabelColor Average/blue"), find("D65"))
+    assert pixels.reshape(120, 120, 4)[5, 60] == pytest.approx([*(colour / 255), 1], abs=0.5 / 255)
+
+
+def test_a_text_that_is_no_spectrum_shows_why(material, previews):
+    previews.shown("D64", True, 120)
+    previews.make_wanted()
+    assert "did you mean D65" in previews.shown("D64", True, 120).sentence
+
+
+def test_pictures_do_not_pile_up(material, previews):
+    for number in range(previews.MOST + 20):
+        previews.shown(f"{number / 1000}", False, 40)
+        previews.make_wanted()
+    assert len(previews._pictures) <= previews.MOST
+
+
+def test_the_curve_of_a_variable_is_that_of_the_active_condition(material, library):
+    settings = bpy.context.scene.rtb
+    settings.set_conditions(["paint"], [["0.1"], ["BabelColor Average/red"]])
+    material.reflectance = "(paint)"
+    typed_in = library("blender.fields").typed_in
+    settings.active_condition = 1
+    assert typed_in(material, "reflectance", settings) == "BabelColor Average/red"
+    material.reflectance = "400:(paint) 700:(gone)"
+    settings.active_condition = 0
+    assert typed_in(material, "reflectance", settings) == "400:0.1 700:(gone)"
