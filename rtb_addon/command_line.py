@@ -20,7 +20,7 @@ from .lifeline import watch_parent
 from .montage import make_montage, write_png
 from .old_recipes import import_recipe
 from .progress import ProgressBar
-from .recipe import Recipe
+from .recipe import CONDITIONS, RECIPE, Recipe
 from .recipe.packing import pack_recipe
 from .recipe.problems import findings
 from .recipe.remodeler import remodeled
@@ -118,8 +118,15 @@ def renderers_installed(said: Namespace) -> int:
     return 0
 
 
-def make_montages(recipe: Recipe, output: Path | None = None) -> Iterator[Path]:
-    """Write one picture for each renderer that a recipe's conditions are rendered by."""
+def make_montages(recipe: Recipe, output: Path | None = None, *, anew: bool = True) -> Iterator[Path]:
+    """
+    Write one picture for each renderer that a recipe's conditions are rendered by.
+
+    Parameters
+    ----------
+    output : the picture's file, else one below images/
+    anew : make even a picture that is younger than all it comes from
+    """
     cells: dict[str, list[Path | None]] = {}
     for condition in recipe.conditions:
         file = recipe.rendering_file(condition)
@@ -128,8 +135,16 @@ def make_montages(recipe: Recipe, output: Path | None = None) -> Iterator[Path]:
     for renderer, files in cells.items():
         if any(files):
             target = output or recipe.montage_file(renderer)
-            write_png(target, make_montage(files, recipe.montage))
+            if anew or not _is_up_to_date(target, recipe, [file for file in files if file]):
+                write_png(target, make_montage(files, recipe.montage))
             yield target
+
+
+def _is_up_to_date(picture: Path, recipe: Recipe, cubes: list[Path]) -> bool:
+    """Return whether a picture is younger than its cubes, their coming and going, and the recipe."""
+    tables = [recipe.folder / name for name in (RECIPE, CONDITIONS)]
+    sources = [*cubes, cubes[0].parent, *(table for table in tables if table.is_file())]
+    return picture.is_file() and picture.stat().st_mtime_ns > max(path.stat().st_mtime_ns for path in sources)
 
 
 def _with_montage(recipe: Recipe, events: Iterable[Event]) -> Iterator[Event]:
@@ -140,7 +155,7 @@ def _with_montage(recipe: Recipe, events: Iterable[Event]) -> Iterator[Event]:
 def _with_pictures(recipe: Recipe, event: Event) -> Event:
     """Make the montages; that some pictures do not fit together spoils no cube."""
     try:
-        made = [str(file) for file in make_montages(recipe)]
+        made = [str(file) for file in make_montages(recipe, anew=False)]
     except RecipeError as error:
         return replace(event, warnings=(f"no montage: {error}",))
     return replace(event, file=made[0] if made else "")

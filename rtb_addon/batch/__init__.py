@@ -109,7 +109,7 @@ class _Work:
 def _events(
     recipe: Recipe, chosen: list[Condition], work: _Work, cancelled: Callable[[], bool]
 ) -> Iterator[Event]:
-    cached, waiting = plan(recipe, chosen, work.fresh)
+    cached, waiting = plan(recipe, chosen, work.fresh, cancelled)
     with work.crew(recipe, waiting) as crew:
         yield Event("started", warnings=(*recipe.unknown_words(), *recipe.resources.warnings))
         yield from cached

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from typing import NamedTuple
 
 from ..background import Event
@@ -29,10 +29,18 @@ class Plan(NamedTuple):
     waiting: list[Condition]
 
 
-def plan(recipe: Recipe, chosen: Sequence[Condition], fresh: bool) -> Plan:
-    """Return what a batch has to do; raise everything that is wrong, before anything is rendered."""
+def plan(
+    recipe: Recipe, chosen: Sequence[Condition], fresh: bool, cancelled: Callable[[], bool] = lambda: False
+) -> Plan:
+    """
+    Return what a batch has to do; raise everything that is wrong, before anything is rendered.
+
+    Once cancelled says yes, nothing more is to be done.
+    """
     made, problems, foresight = Plan([], []), _Problems(), Foresight(recipe)
     for condition in chosen:
+        if cancelled():
+            return Plan(made.cached, [])
         try:
             key = key_of(recipe, condition)
         except RecipeError as error:

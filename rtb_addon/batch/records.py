@@ -22,9 +22,13 @@ LOG = "log.jsonl"
 
 
 def record(
-    recipe: Recipe, condition: Condition, key: Key, warnings: tuple[str, ...], seconds: float
+    recipe: Recipe,
+    condition: Condition,
+    key: Key,
+    warnings: tuple[str, ...],
+    seconds: Mapping[str, float],
 ) -> dict[str, Any]:
-    """Return how a condition was rendered, in [s] seconds."""
+    """Return how a condition was rendered, and in how many seconds [s], by name of the span."""
     return {
         "condition": condition.name,
         "key": key.digest,
@@ -37,7 +41,7 @@ def record(
         **({"remodeler": recipe.remodeler.digest} if recipe.remodeler else {}),
         "library version": library_version(),
         **key.versions,
-        "seconds": round(seconds, 3),
+        **{span: round(length, 3) for span, length in seconds.items()},
         "warnings": list(warnings),
         "date": _now(),
     }

@@ -92,8 +92,10 @@ def render_condition(
     renderer = renderer_of(recipe, options.renderer)
     folder = recipe.scenes_folder / options.renderer
     native = renderer.translate(resolved.scene, extras, folder, name)
+    ready = time.monotonic()
     image = renderer.render(native, RenderOptions(threads), report).scaled(recipe.conventions.factor)
-    seconds = time.monotonic() - began
+    ended = time.monotonic()
+    seconds = {"seconds": ended - began, "seconds rendering": ended - ready}
     return _saved(
         image, recipe, condition, records.record(recipe, condition, key, resolved.warnings, seconds)
     )

@@ -57,6 +57,7 @@ class Recipe:
     remodeler: Remodeler | None = field(default=None, repr=False)
     resources: Resources = field(init=False, repr=False)
     _known: dict[Hashable, Any] = field(default_factory=dict, init=False, repr=False)
+    _big: dict[Hashable, Any] = field(default_factory=dict, init=False, repr=False)
 
     def __post_init__(self) -> None:
         object.__setattr__(self, "folder", Path(self.folder).absolute())
@@ -125,10 +126,13 @@ class Recipe:
         """Return the parent scene of a condition."""
         file = self.parent_file(condition)
         state = file.stat()  # an edited file is another scene, and has another key
-        return self.once((file, state.st_size, state.st_mtime_ns), lambda: Scene.read(file))
+        return self.lately((file, state.st_size, state.st_mtime_ns), lambda: Scene.read(file))
 
     def options_of(self, condition: Condition) -> RecipeOptions:
         """Return a condition's options: the command line's before the row's before recipe.json's."""
+        return self.lately(("options", condition.name), lambda: self._options_of(condition))
+
+    def _options_of(self, condition: Condition) -> RecipeOptions:
         chosen = self.said_for(condition)
         try:
             return replace(self.options, **chosen)
@@ -178,6 +182,14 @@ class Recipe:
             self._known[what] = find_out()
         return self._known[what]
 
+    def lately(self, what: Hashable, find_out: Callable[[], Any]) -> Any:
+        """Return what something big is; only the last few are kept, however long the table is."""
+        known = self._big.pop(what) if what in self._big else find_out()
+        self._big[what] = known
+        while len(self._big) > _MOST_BIG:
+            del self._big[next(iter(self._big))]
+        return known
+
     def _file_of(self, condition: Condition, name: str, what: str) -> Path:
         file = self.find_file(name)
         if file is None:
@@ -189,6 +201,7 @@ class Recipe:
         return file
 
 
+_MOST_BIG = 4
 _COLUMNS = {"renderer": "renderer", "width": "imageWidth", "height": "imageHeight", "camera": "camera"}
 
 

@@ -45,7 +45,7 @@ def remodeled_parent(recipe: Recipe, condition: Condition) -> Scene:
     parent = recipe.parent_of(condition)
     if (remodeler := recipe.remodeler) is None:
         return parent
-    return recipe.once(("before_all", parent), lambda: remodeler.changed("before_all", parent, recipe))
+    return recipe.lately(("before_all", parent), lambda: remodeler.changed("before_all", parent, recipe))
 
 
 def resolve_condition(recipe: Recipe, condition: Condition, adjustments: Adjustments) -> Resolved:

@@ -272,6 +272,18 @@ def test_cancelling_stops_within_a_second_even_what_does_not_listen(write_family
     assert not (recipe.folder / locks.NAME).exists()
 
 
+def test_a_batch_can_be_cancelled_while_it_still_looks_what_is_done(write_family):
+    recipe = write_family(dict.fromkeys("abcd", "0.5"))
+    looks = []
+
+    def cancelled():
+        looks.append(None)
+        return len(looks) > 2
+
+    events = list(render_recipe(recipe.folder, cancelled=cancelled))
+    assert [(event.kind, event.condition) for event in events] == [("started", ""), ("cancelled", "")]
+
+
 def test_leaving_a_batch_early_leaves_no_worker(write_family, plugin):
     plugin.setenv("PLAIN_PASS", "0.05")
     recipe = write_family({"a": "0.5", "b": "0.5"}, samples=400)

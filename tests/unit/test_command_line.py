@@ -144,6 +144,24 @@ def test_montage_goes_where_it_is_told(write_family, run, tmp_path):
     assert (tmp_path / "picture.png").is_file()
 
 
+def test_a_batch_makes_a_montage_anew_only_where_something_changed(write_family, run):
+    recipe = write_family({"a": "0.2", "b": "0.8"})
+    picture = recipe.montage_file("plain")
+
+    def made():
+        assert run("render", recipe.folder, "--jobs", 1)[1].endswith(f"montage: {picture}\n")
+        return picture.stat().st_mtime_ns
+
+    first = made()
+    assert made() == first
+    recipe.rendering_file(recipe.conditions["a"]).unlink()
+    second = made()
+    assert second > first
+    file = recipe.folder / "recipe.json"
+    file.write_text(file.read_text().replace('"columns": null', '"columns": 1'))
+    assert made() > second
+
+
 @pytest.mark.parametrize("number", [signal.SIGINT, signal.SIGTERM])
 def test_an_interrupted_batch_ends_with_130_and_keeps_what_is_done(write_family, plugin, number):
     plugin.setenv("PLAIN_PASS", "0.02")

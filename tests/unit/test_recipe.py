@@ -1,7 +1,9 @@
+import gc
 import json
 import os
 import subprocess
 import sys
+import weakref
 from pathlib import Path
 
 import pytest
@@ -227,6 +229,22 @@ def test_every_problem_is_said_not_only_the_first(write_family):
 
 def test_a_good_recipe_has_no_problems(write_family):
     assert write_family({"a": "0.2", "b": "400:0.1 700:0.9"}).problems() == []
+
+
+def test_of_many_parent_scenes_only_the_last_few_are_kept(write_family):
+    recipe = write_family({"a": "0.2"})
+    names = [f"scene{number:02}.dae" for number in range(20)]
+    for name in names:
+        (recipe.folder / name).write_bytes((recipe.folder / "parent.dae").read_bytes())
+    rows = "".join(f"c{number:02}\t0.2\t{name}\n" for number, name in enumerate(names))
+    (recipe.folder / "conditions.txt").write_text("imageName\tpaint\tcolladaFile\n" + rows)
+    recipe = Recipe.load(recipe.folder)
+    scenes = [weakref.ref(recipe.parent_of(condition)) for condition in recipe.conditions]
+    gc.collect()
+    alive = [scene() is not None for scene in scenes]
+    assert alive == [False] * 16 + [True] * 4
+    last = recipe.conditions["c19"]
+    assert recipe.parent_of(last) is recipe.parent_of(last)
 
 
 def test_options_are_checked_when_they_are_born():
