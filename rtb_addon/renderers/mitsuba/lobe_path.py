@@ -113,8 +113,7 @@ def scatter(tables, spectral, scalar, at, lit, turned):
     (bsdf, si, active), (towards, value, glow), (wo, onward) = at, lit, turned
     row = tables.material_row(bsdf, active)
     lobes = [tables.reflectance(row, k, si.uv, active) for k in range(tables.lobes)]
-    there = _with_metals(tables, lobes, row, dr.dot(si.wi, towards), active)
-    ahead = _with_metals(tables, lobes, row, dr.dot(si.wi, wo), active)
+    there, ahead = _with_metals(tables, lobes, row, (dr.dot(si.wi, towards), dr.dot(si.wi, wo)), active)
     if tables.lobes == 1:
         spectral_lit = _times(spectral, there[0])
         spectral = spectral_lit if tables.metals == 0 else _times(spectral, ahead[0])
@@ -124,15 +123,18 @@ def scatter(tables, spectral, scalar, at, lit, turned):
     return spectral_lit, _times(spectral, _mix(ahead, onward)), dr.select(going, scalar, 0), glow
 
 
-def _with_metals(tables, lobes, row, cosine, active):
-    """Return the spectra of lobes, those of metals times what they reflect between two directions."""
+def _with_metals(tables, lobes, row, cosines, active):
+    """Return the spectra of lobes for each angle: those of metals times what they reflect at half of it."""
     if tables.metals == 0:
-        return lobes
-    # Of half the angle between the directions.
-    cosine = dr.sqrt(dr.maximum((1 + cosine) / 2, 0))
+        return [lobes for _ in cosines]
+    halves = [dr.sqrt(dr.maximum((1 + cosine) / 2, 0)) for cosine in cosines]
+    shares = [tables.fresnel(row, k, halves, active) for k in range(tables.metals)]
     return [
-        _times(spectrum, tables.fresnel(row, k, cosine, active)) if k < tables.metals else spectrum
-        for k, spectrum in enumerate(lobes)
+        [
+            _times(spectrum, shares[k][turn]) if k < tables.metals else spectrum
+            for k, spectrum in enumerate(lobes)
+        ]
+        for turn in range(len(cosines))
     ]
 
 

@@ -24,8 +24,9 @@ from .textures_xml import WRAPS
 
 # Channels that are kept as they are: a packet that memory gives at once.
 _FEW = 4
-# Numbers for each lobe: first texel, width, height, wrap, nearest, few channels, first row of their bands.
-_NUMBERS = 8
+# Numbers for each lobe: first texel, width, height, wrap, nearest, then none, few or many channels as 0, 1 or
+# 2, and the row where the bands of few channels begin.
+_NUMBERS, _KIND, _ROW = 8, 5, 6
 
 
 class Pictures:
@@ -51,58 +52,56 @@ class Pictures:
             into = few if small else many
             first = sum(len(block) for block in into)
             into.append(_as_stored(picture, bands, kind, padded))
-            layout[number, :7] = (
-                first,
-                width,
-                height,
-                WRAPS.index(use.wrap),
-                use.nearest,
-                small,
-                len(weights) * _FEW,
-            )
+            kept = (1 if small else 2), len(weights) * _FEW
+            layout[number, :7] = first, width, height, WRAPS.index(use.wrap), use.nearest, *kept
             places[number] = use.place
             weights.append(_weights(picture, bands, kind, padded))
         self.any = bool(weights)
-        self._few = any(layout[:, 5] == 1)
-        self._many = any((layout[:, 5] == 0) & (layout[:, 1] > 0))
+        self._few, self._many = bool(few), bool(many)
         self._layout, self._places = mi.UInt32(layout.ravel()), _table([places])
         self._few_texels, self._many_texels, self._weights = _table(few), _table(many), _table(weights)
 
     def reflectance(self, lobe, uv, plain: list, active) -> list:
         """Return the spectrum of a lobe's picture at a place, or the plain one where it has none."""
-        first, width, height, wrap, nearest, few, row = (self._number(lobe, k, active) for k in range(7))
-        place = dr.gather(mi.Vector4f, self._places, lobe, active)
-        around = taps(Layout(first, width, height, wrap, nearest, place), uv)
-        pictured = active & (width > 0)
+        kind = self._number(lobe, _KIND, active)
+        # Where no path of a bundle meets a picture, nothing is looked up.
         if self._few:
-            plain = _select(
-                pictured & (few == 1), self._of_channels(around, row, pictured & (few == 1)), plain
-            )
+            plain = dr.if_stmt((lobe, uv, plain), active & (kind == 1), self._of_channels, _as_it_is)
         if self._many:
-            plain = _select(pictured & (few == 0), self._of_bands(around, pictured & (few == 0)), plain)
+            plain = dr.if_stmt((lobe, uv, plain), active & (kind == 2), self._of_bands, _as_it_is)
         return plain
+
+    def _around(self, lobe, uv) -> list[tuple[Any, Any]]:
+        first, width, height, wrap, nearest = (self._number(lobe, k, True) for k in range(5))
+        place = dr.gather(mi.Vector4f, self._places, lobe)
+        return taps(Layout(first, width, height, wrap, nearest, place), uv)
 
     def _number(self, lobe, which: int, active) -> Any:
         return dr.gather(mi.UInt32, self._layout, lobe * _NUMBERS + which, active)
 
-    def _of_channels(self, around, row, active) -> list:
+    def _of_channels(self, lobe, uv, plain: list) -> list:
         channels: Any = mi.Vector4f(0)
-        for texel, share in around:
-            channels += share * dr.gather(mi.Vector4f, self._few_texels, texel, active)
-        total: list[Any] = [mi.Float(0)] * (self._packets * _FEW)
+        for texel, share in self._around(lobe, uv):
+            channels += share * dr.gather(mi.Vector4f, self._few_texels, texel)
+        row = self._number(lobe, _ROW, True)
+        total: list[Any] = [mi.Float(0)] * len(plain)
         for k in range(_FEW):
-            weights = _bands(self._weights, row + k, self._packets, active)
+            weights = _bands(self._weights, row + k, self._packets)
             total = [
                 dr.fma(channels[k], weight, so_far) for weight, so_far in zip(weights, total, strict=True)
             ]
         return total
 
-    def _of_bands(self, around, active) -> list:
-        total: list[Any] = [mi.Float(0)] * (self._packets * _FEW)
-        for texel, share in around:
-            values = _bands(self._many_texels, texel, self._packets, active)
+    def _of_bands(self, lobe, uv, plain: list) -> list:
+        total: list[Any] = [mi.Float(0)] * len(plain)
+        for texel, share in self._around(lobe, uv):
+            values = _bands(self._many_texels, texel, self._packets)
             total = [dr.fma(share, value, so_far) for value, so_far in zip(values, total, strict=True)]
         return total
+
+
+def _as_it_is(lobe, uv, plain: list) -> list:
+    return plain
 
 
 def _as_stored(picture: Picture, bands: Bands, kind: BandKind, padded: int) -> FloatArray:
@@ -119,13 +118,9 @@ def _weights(picture: Picture, bands: Bands, kind: BandKind, padded: int) -> Flo
     return np.pad(weights, ((0, _FEW - len(weights)), (0, padded - weights.shape[1])))
 
 
-def _bands(table, row, packets: int, active) -> list:
-    found: list[Any] = [dr.gather(mi.Vector4f, table, row * packets + k, active) for k in range(packets)]
+def _bands(table, row, packets: int) -> list:
+    found: list[Any] = [dr.gather(mi.Vector4f, table, row * packets + k) for k in range(packets)]
     return [packet[k] for packet in found for k in range(_FEW)]
-
-
-def _select(mask, chosen: list, otherwise: list) -> list:
-    return [dr.select(mask, one, other) for one, other in zip(chosen, otherwise, strict=True)]
 
 
 def _table(blocks) -> Any:

@@ -19,6 +19,7 @@ from .one_hot import Emitter, OneHotScene
 from .pictures import Pictures
 
 _NO_METAL = Lobe(Spectrum.constant(1.0))
+_VOID = (Spectrum.constant(0.0), Spectrum.constant(0.0))
 # A spectrum's row is fetched four numbers at a time.
 _PACKET = 4
 # An edge without a transition is this steep [1 / difference of cosines].
@@ -66,18 +67,15 @@ class Tables:
             [in_bands(lobes[k].reflectance) if k < len(lobes) else black for k in range(self.lobes)]
             for lobes in source.materials.values()
         ]
-        # Eta and k of 0 stand for what is no metal.
-        indices = [
-            [[in_bands(part) for part in lobe.index] if lobe.index else [black, black] for lobe in lobes]
-            for lobes in (
-                [*lobes, *[_NO_METAL] * self.metals][: self.metals] for lobes in source.materials.values()
-            )
-        ]
+        slots = [[*lobes, *[_NO_METAL] * self.metals][: self.metals] for lobes in source.materials.values()]
+        metals = [[lobe.index is not None for lobe in row] for row in slots]
+        indices = [[[in_bands(part) for part in lobe.index or _VOID] for lobe in row] for row in slots]
         # Light sampling aims anywhere in a disc: irradiance becomes radiance times solid angle.
         gains = [2 / (2 - emitter.narrowness) for emitter in emitters]
         glows = [in_bands(emitter.spectrum) * gain for emitter, gain in zip(emitters, gains, strict=True)]
         self._reflectances = _table(rows)
         self._indices = _table(indices)
+        self._is_metal = mi.Bool(np.ravel(metals) if self.metals else [False])
         self._emissions = _table(glows)
         self._beams = _table([[*e.axis, e.outer, _steepness(e), e.narrowness, 0.0, 0.0] for e in emitters])
         suns = [(e, glow) for e, glow in zip(emitters, glows, strict=True) if e.narrowness > 0]
@@ -94,7 +92,7 @@ class Tables:
         return None if self.single else self._bands(self._emissions, row, active)
 
     def in_the_end(self, radiance: list) -> list:
-        """Return what paths have gathered, times the spectrum of the only emitter, which was left out so far."""
+        """Return what paths have gathered, times the spectrum of the only emitter, left out so far."""
         if not self.single:
             return radiance
         glow = self._bands(self._emissions, mi.UInt32(0), True)
@@ -110,11 +108,19 @@ class Tables:
         plain = self._bands(self._reflectances, place, active)
         return self.pictures.reflectance(place, uv, plain, active) if self.pictures.any else plain
 
-    def fresnel(self, row, lobe: int, cosine, active) -> list:
-        """Return what a metal's lobe reflects at an angle, one mi.Float a band; 1 where it is no metal's."""
-        place = (row * self.metals + lobe) * 2
-        eta, k = (self._bands(self._indices, place + part, active) for part in range(2))
-        return [_fresnel(cosine, *index) for index in zip(eta, k, strict=True)]
+    def fresnel(self, row, lobe: int, cosines, active) -> list[list]:
+        """Return what a metal's lobe reflects at angles, one mi.Float a band; 1 where it is no metal's."""
+        place = row * self.metals + lobe
+        metal = active & dr.gather(mi.Bool, self._is_metal, place, active)
+        # Where no path of a bundle meets a metal, nothing is computed.
+        return dr.if_stmt((place, list(cosines)), metal, self._fresnel, self._no_fresnel)
+
+    def _fresnel(self, place, cosines) -> list[list]:
+        eta, k = (self._bands(self._indices, place * 2 + part, True) for part in range(2))
+        return [[_fresnel(cosine, *index) for index in zip(eta, k, strict=True)] for cosine in cosines]
+
+    def _no_fresnel(self, place, cosines) -> list[list]:
+        return [[mi.Float(1)] * self.padded_bands for _ in cosines]
 
     def beam(self, row, direction, active):
         """Return how much of a spot's intensity goes in a direction from it: Blender's smooth step."""
@@ -154,6 +160,7 @@ def _pictures(source: OneHotScene, bands: Bands, kind: BandKind, padded: int) ->
 
 def _fresnel(cosine, eta, k):
     """Return the share of unpolarised light that a conductor reflects; everything where eta and k are 0."""
+    # Eta and k of 0 stand for no metal, and for the bands that fill up a packet.
     share: Any = mi.fresnel_conductor(cosine, mi.Complex2f(eta, k))  # pyright: ignore[reportCallIssue]
     return dr.select(eta + k > 0, share, 1)
 
