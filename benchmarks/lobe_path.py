@@ -1,9 +1,9 @@
 """
 The lobe path against stock Mitsuba, in one interleaved run: time of 31 bands over the time of one rgb render.
 
-    python benchmarks/lobe_path.py [rounds] [size] [samples] [threads]
+    python benchmarks/lobe_path.py [rounds] [size] [samples] [threads] [material of the small block]
 
-Prints, for a Cornell-like matte box, each way's processor time over that of a stock rgb render of equal
+Prints, for a Cornell-like box with a block that is matte, or metal, roughplastic or anisoward, each way's processor time over that of a stock rgb render of equal
 samples, and its efficiency, 1 / (relative mean squared error x time), over that of the stock spectral film.
 The lobe path's time includes reading and loading the scene anew; the stock ways are given theirs loaded.
 """
@@ -43,6 +43,21 @@ REFLECTANCES = {
     "small": 0.1 + 0.5 * np.exp(-(((WAVELENGTHS - 460) / 30) ** 2)),
     "dark": np.zeros_like(WAVELENGTHS),
 }
+INDICES = {
+    "eta": np.interp(WAVELENGTHS, [450, 600], [1.5, 0.25]),
+    "k": np.interp(WAVELENGTHS, [500, 700], [1.9, 3.8]),
+}
+GLOSSY = {
+    "matte": {},
+    "metal": {**{name: Spectrum(WAVELENGTHS, values) for name, values in INDICES.items()}, "roughness": 0.15},
+    "roughplastic": {"intIOR": 1.5, "extIOR": 1.0, "roughness": 0.15},
+    "anisoward": {
+        "specularReflectance": Spectrum.constant(0.3),
+        "alphaU": 0.15,
+        "alphaV": 0.15,
+        "variant": "ward",
+    },
+}
 LAMP = 8 * (0.6 + 0.5 / (1 + np.exp(-(WAVELENGTHS - 560) / 60))) * (1 + 0.2 * np.sin(WAVELENGTHS / 23))
 
 
@@ -63,7 +78,7 @@ def cube():
     return Mesh(np.concatenate(faces).astype(np.float32), np.concatenate(triangles).astype(np.int32))
 
 
-def box(size, samples):
+def box(size, samples, small="matte"):
     lamp = Spectrum(WAVELENGTHS, LAMP)
     shapes = [
         Shape("floor", SQUARE, placed((0, -1, 0), "x", -90), "white"),
@@ -79,6 +94,8 @@ def box(size, samples):
         name: Material(name, "matte", {"diffuseReflectance": Spectrum(WAVELENGTHS, values)})
         for name, values in REFLECTANCES.items()
     }
+    paint = materials["small"].parameters if small != "metal" else {}
+    materials["small"] = Material("small", small, {**paint, **GLOSSY[small]})
     half = np.tan(np.radians(39.3 / 2))
     camera = Camera("Camera", "perspective", placed((0, 0, 3.9)), (-half, half, -half, half), (0.01, 100))
     integrator = Integrator(samples=samples, depth=6)
@@ -112,11 +129,11 @@ def ways(native, samples, threads):
     }
 
 
-def main(rounds=5, size=128, samples=64, threads=1):
+def main(rounds=5, size=128, samples=64, threads=1, small="matte"):
     if llvm.prepare() is None:
         raise SystemExit("no LLVM works here")
     with tempfile.TemporaryDirectory() as folder:
-        native = renderer().translate(box(size, samples), (), Path(folder), "box")
+        native = renderer().translate(box(size, samples, small), (), Path(folder), "box")
         found = ways(native, samples, threads)
         seconds, images = {name: [] for name in found}, {name: [] for name in found}
         for turn in range(rounds + 1):
@@ -143,4 +160,4 @@ def main(rounds=5, size=128, samples=64, threads=1):
 
 
 if __name__ == "__main__":
-    main(*map(int, sys.argv[1:]))
+    main(*map(int, sys.argv[1:5]), *sys.argv[5:])

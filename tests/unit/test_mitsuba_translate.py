@@ -17,10 +17,11 @@ from rtb_addon.renderers.mitsuba.native import read_native
 from rtb_addon.renderers.mitsuba.one_hot import one_hot
 from rtb_addon.renderers.mitsuba.renderer import check_pixels
 from rtb_addon.renderers.mitsuba.spectrum_xml import format_spectrum, parse_spectrum, properties, range_for
-from rtb_addon.scene.render_scene import Light, Shape, TextureUse
+from rtb_addon.scene.render_scene import Light, Material, Shape, TextureUse
 from rtb_addon.spectra import FULL_RANGE, Bands, Spectrum
 from tests.renderings.mitsuba_scenes import FLOOR, INTENSITY, REFLECTANCE, at, lamp, scene, square
 
+GREY = Spectrum.constant(0.5)
 GLOWING = Shape("Panel-mesh", square(1), at(0, 0, 3), "soot", INTENSITY)
 
 
@@ -227,6 +228,42 @@ WRONG = {
 }
 
 
+def painted(model, **parameters):
+    """Return a scene whose paint is of a material."""
+    one = scene()
+    return replace(one, materials={**one.materials, "paint": Material("paint", model, parameters)})
+
+
+def four_spectra():
+    grey = {"alphaU": 0.1, "alphaV": 0.1, "variant": "ward"}
+    parts = [
+        {"diffuseReflectance": Spectrum.constant(k / 10), "specularReflectance": Spectrum.constant(k / 20)}
+        for k in (1, 3)
+    ]
+    one = painted("blend", materialID="first", otherMaterialID="second", weight=0.5)
+    made = {
+        name: Material(name, "anisoward", {**grey, **part})
+        for name, part in zip(("first", "second"), parts, strict=True)
+    }
+    return replace(one, materials={**one.materials, **made})
+
+
+TINTS = {"specularReflectance": Spectrum.constant(1), "specularTransmittance": Spectrum.constant(1)}
+WRONG |= {
+    "paint is made of itself": lambda: painted("mask", materialID="paint", opacity=0.5),
+    "material paint wants material oak": lambda: painted("mask", materialID="oak", opacity=0.5),
+    "has 1.5 as its opacity": lambda: painted("mask", materialID="soot", opacity=1.5),
+    "paint is made of 4 spectra, Mitsuba renders 1 to 3": four_spectra,
+    "no measured yet": lambda: painted("measured", filename="x"),
+    "has -0.1 as its roughness": lambda: painted("metal", eta=GREY, k=GREY, roughness=-0.1),
+    "paint needs a spectrum as its eta": lambda: painted("metal", eta=TextureUse("x"), k=GREY, roughness=0.1),
+    "has 0.0 as its extIOR": lambda: painted("glass", intIOR=1.5, extIOR=0.0, **TINTS),
+    "is of variant phong, want one of ward": lambda: painted(
+        "anisoward", variant="phong", alphaU=0.1, alphaV=0.1, diffuseReflectance=GREY
+    ),
+}
+
+
 @pytest.mark.parametrize("words", WRONG)
 def test_what_mitsuba_cannot_render_is_refused_in_one_sentence(tmp_path, words):
     with pytest.raises(RecipeError, match=re.escape(words)) as caught:
@@ -256,3 +293,28 @@ def test_pixels_that_no_light_can_have_are_refused(wrong):
     radiance[2, 3, 1] = wrong
     with pytest.raises(RenderingError, match=r"1 pixels came out .* row 2, column 3, band 1"):
         check_pixels(radiance)
+
+
+def test_a_blend_refers_to_materials_that_stand_before_it_and_keeps_their_spectra(tmp_path):
+    one = painted("blend", materialID="glossy", otherMaterialID="soot", weight=0.5)
+    one = replace(one, materials={**one.materials, "glossy": Material("glossy", "plastic", PLASTIC)})
+    native = read_native(renderer().translate(one, (), tmp_path, "scene"))
+    order = [node.get("id") for node in native.root.findall("bsdf")]
+    assert order.index("paint") > max(order.index("glossy"), order.index("soot"))
+    assert [node.get("id") for node in native.root.find("bsdf[@id='paint']").findall("ref")] == [
+        "glossy",
+        "soot",
+    ]
+    lobes = one_hot(native).materials["paint"]
+    np.testing.assert_allclose([lobe.reflectance.at(555) for lobe in lobes], [REFLECTANCE.at(555), 1, 0])
+
+
+PLASTIC = {"intIOR": 1.5, "extIOR": 1.0, "diffuseReflectance": REFLECTANCE}
+
+
+def test_spectra_that_are_the_same_share_a_lobe(tmp_path):
+    one = painted("blend", materialID="one", otherMaterialID="two", weight=0.5)
+    made = {name: Material(name, "plastic", PLASTIC) for name in ("one", "two")}
+    one = replace(one, materials={**one.materials, **made})
+    native = read_native(renderer().translate(one, (), tmp_path, "scene"))
+    assert len(one_hot(native).materials["paint"]) == 2

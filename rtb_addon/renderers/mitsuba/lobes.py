@@ -20,7 +20,6 @@ from xml.etree import ElementTree as Xml
 
 from ...errors import RenderingError
 from ...spectra import Spectrum
-from ..pictures import Picture, read_picture
 from .spectrum_xml import element, parse_spectrum, properties
 
 MOST_LOBES = 3
@@ -49,12 +48,14 @@ class PictureUse:
 
     Parameters
     ----------
+    file, gamma : of the picture
     wrap : what lies beyond its edges, a word of textures_xml.WRAPS
     nearest : whether texels are squares; else they fade into each other
     place : scale of U and of V, offset of U and of V
     """
 
-    picture: Picture
+    file: Path
+    gamma: float
     wrap: str
     nearest: bool
     place: tuple[float, ...]
@@ -115,7 +116,9 @@ def _take(id: str, material: Xml.Element) -> list[Lobe]:
             found[key] = _lobe(child, metals.get(parent, ()))
         places.append((parent, index, child.get("name", ""), key))
     if not 1 <= len(found) <= MOST_LOBES:
-        raise RenderingError(f"the native scene's {id} has {len(found)} spectra, give it 1 to {MOST_LOBES}")
+        raise RenderingError(
+            f"{id} is made of {len(found)} spectra, Mitsuba renders 1 to {MOST_LOBES}, the tracer any number"
+        )
     # Metals come first, so that few lobes have to be asked for their index.
     order = sorted(found, key=lambda key: found[key].index is None)
     for parent, index, name, key in places:
@@ -130,8 +133,13 @@ def _lobe(node: Xml.Element, index: tuple[Xml.Element, ...]) -> Lobe:
         return Lobe(parse_spectrum(node), metal)
     said = properties(node)
     place = tuple(float(said[name]) for name in ("scale_u", "scale_v", "offset_u", "offset_v"))
-    picture = read_picture(Path(said["filename"]), float(said["gamma"]))
-    use = PictureUse(picture, said["wrap_mode"], said["filter_type"] == "nearest", place)
+    use = PictureUse(
+        Path(said["filename"]),
+        float(said["gamma"]),
+        said["wrap_mode"],
+        said["filter_type"] == "nearest",
+        place,
+    )
     return Lobe(Spectrum.constant(1.0), metal, use)
 
 

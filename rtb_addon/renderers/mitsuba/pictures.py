@@ -17,7 +17,7 @@ import mitsuba as mi
 import numpy as np
 
 from ...spectra import BandKind, Bands, FloatArray
-from ..pictures import Picture
+from ..pictures import Picture, read_picture
 from .lobes import Lobe
 from .picture_lookup import Layout, taps
 from .textures_xml import WRAPS
@@ -46,7 +46,7 @@ class Pictures:
         for number, lobe in enumerate(lobes):
             if lobe is None or (use := lobe.picture) is None:
                 continue
-            picture = use.picture
+            picture = read_picture(use.file, use.gamma)
             height, width, channels = picture.texels.shape
             small = channels <= _FEW
             into = few if small else many
