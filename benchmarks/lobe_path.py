@@ -3,9 +3,10 @@ The lobe path against stock Mitsuba, in one interleaved run: time of 31 bands ov
 
     python benchmarks/lobe_path.py [rounds] [size] [samples] [threads] [material of the small block]
 
-Prints, for a Cornell-like box with a block that is matte, or metal, roughplastic or anisoward, each way's processor time over that of a stock rgb render of equal
-samples, and its efficiency, 1 / (relative mean squared error x time), over that of the stock spectral film.
-The lobe path's time includes reading and loading the scene anew; the stock ways are given theirs loaded.
+Prints, for a Cornell-like box with a block that is matte, or metal, roughplastic or anisoward, each way's
+processor time over that of a stock rgb render of equal samples, and its efficiency,
+1 / (relative mean squared error x time), over that of the stock spectral film. The lobe path's time includes
+reading and loading the scene anew; the stock ways are given theirs loaded.
 """
 
 import sys
