@@ -9,7 +9,7 @@ No path ends by chance: its length is its integrator's depth.
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator, Sequence
+from collections.abc import Callable
 from typing import NamedTuple
 
 import numpy as np
@@ -26,6 +26,7 @@ from .kernels import Hits, Kernel
 from .lights import Lights
 from .materials import Materials
 from .meeting import Meeting, Model, column
+from .paths import Paths
 from .sampler import Sampler
 
 # Paths in a wave: few enough that its arrays stay in the processor's cache and that
@@ -57,57 +58,6 @@ class World(NamedTuple):
         """Return which rays meet anything before their reach."""
         way = origins, directions, reach
         return self.surfaces.blocked(*way) | self.lights.spheres.block(*way)
-
-
-class Paths(NamedTuple):
-    """
-    Paths on their way.
-
-    Parameters
-    ----------
-    number : (n,) int array, row of the wave that a path's light belongs to
-    origins, directions : (3, n) arrays [m]
-    reach : (n,) how far they see [m]; None without end
-    density : (n,) of the direction [sr-1]; infinite where no light could have been chosen instead
-    throughput : (n, bands) float32 array, radiance seen per radiance met
-    """
-
-    number: IntArray
-    origins: FloatArray
-    directions: FloatArray
-    reach: FloatArray | None
-    density: FloatArray
-    throughput: FloatArray
-
-    def only(self, rows: IntArray) -> Paths:
-        """Return some of them, in this order."""
-        if len(rows) == len(self.number):
-            return self
-        reach = None if self.reach is None else self.reach[rows]
-        # take() is two or three times as quick as an index, here and elsewhere.
-        return Paths(
-            self.number[rows],
-            self.origins.take(rows, axis=1),
-            self.directions.take(rows, axis=1),
-            reach,
-            self.density[rows],
-            self.throughput.take(rows, axis=0),
-        )
-
-    @classmethod
-    def joined(cls, parts: Sequence[Paths], before: Paths) -> Paths:
-        """Return all paths of some parts, none of those before when there are no parts."""
-        if len(parts) < 2:
-            return parts[0] if parts else before.only(np.zeros(0, int))
-        number, origins, directions, _, density, throughput = zip(*parts, strict=True)
-        return cls(
-            np.concatenate(number),
-            np.concatenate(origins, axis=1),
-            np.concatenate(directions, axis=1),
-            None,
-            np.concatenate(density),
-            np.concatenate(throughput),
-        )
 
 
 def render(
@@ -185,11 +135,10 @@ def follow(world: World, paths: Paths, draw: _Draw, depth: int) -> FloatArray:
         _add_met(world, paths, hits, found)
         if step == depth:
             break
-        parts = []
-        for model, theirs, met in _met_surfaces(world, paths, hits, draw, 2 * depth - 2 + step):
-            _add_sampled(world, theirs, model, met, draw.pair(2 * step - 1, theirs.number), found)
-            parts.append(_scattered(theirs, model, met, draw.pair(2 * step, theirs.number)))
-        paths = Paths.joined(parts, paths)
+        meetings = _met_surfaces(world, paths, hits, draw, 2 * depth - 2 + step)
+        # What is not needed any more makes room in the processor's cache.
+        del paths, hits
+        paths = _gone_on(world, meetings, draw, step, found)
         if not len(paths.number):
             break
     return found
@@ -207,27 +156,41 @@ def _add_met(world: World, paths: Paths, hits: Hits, found: FloatArray) -> None:
             _add(world, paths, rows, row, column(strength / (1 + rival / paths.density[rows])), found)
 
 
+def _gone_on(
+    world: World, meetings: list[tuple[Model, Paths, Meeting]], draw: _Draw, step: int, found: FloatArray
+) -> Paths:
+    """Look for lights from where paths met surfaces, and return the paths that go on."""
+    parts = []
+    while meetings:
+        model, paths, met = meetings.pop()
+        _add_sampled(world, paths, model, met, draw.pair(2 * step - 1, paths.number), found)
+        parts.append(_scattered(paths, model, met, draw.pair(2 * step, paths.number)))
+    return Paths.joined(parts, len(world.lights.spectra[0]))
+
+
 def _met_surfaces(
     world: World, paths: Paths, hits: Hits, draw: _Draw, use: int
-) -> Iterator[tuple[Model, Paths, Meeting]]:
+) -> list[tuple[Model, Paths, Meeting]]:
     """
-    Yield the paths that met a surface which is not black, by how it scatters, and what they met.
+    Return the paths that met a surface which is not black, by how it scatters, and what they met.
 
     What is made of several materials is one of them, by chance.
     """
     rows = np.nonzero(hits.triangle >= 0)[0]
-    material = world.surfaces.material[hits.triangle[rows]]
+    material = world.surfaces.material.take(hits.triangle.take(rows))
     if world.materials.mixtures is not None:
         material = world.materials.mixtures.one_of(material, draw.pair(use, paths.number[rows])[0])
-    bright = world.materials.reflects[material]
+    bright = world.materials.reflects.take(material)
     rows, material = rows[bright], material[bright]
+    meetings = []
     for model, where, row in world.materials.sorted(material):
         theirs, some = paths.only(rows[where]), hits.only(rows[where])
         met = Meeting(row, world.surfaces.places(some, theirs.directions), theirs.directions)
         if (factor := model.shared(met)) is not None:
             # In place even where nothing was left out: nobody asks for the paths as they came.
             np.multiply(theirs.throughput, factor, out=theirs.throughput)
-        yield model, theirs, met
+        meetings.append((model, theirs, met))
+    return meetings
 
 
 def _add_sampled(
@@ -245,10 +208,10 @@ def _add_sampled(
     side = dot(met.places.faces, sample.directions)
     rows = np.nonzero((sample.strength > 0) & ((side > 0) | model.transmits))[0]
     start, directions = _starts(met, model, side).take(rows, axis=1), sample.directions.take(rows, axis=1)
-    rows = rows[~world.blocked(start, directions, sample.reach[rows])]
+    rows = rows[~world.blocked(start, directions, sample.reach.take(rows))]
     value, rival = model.evaluate(met, rows, sample.directions)
-    strength = sample.strength[rows] / (sample.density[rows] + sample.extended[rows] * rival)
-    _add(world, paths, rows, sample.row[rows], value * column(strength), found)
+    strength = sample.strength.take(rows) / (sample.density.take(rows) + sample.extended.take(rows) * rival)
+    _add(world, paths, rows, sample.row.take(rows), value * column(strength), found)
 
 
 def _add(
@@ -258,7 +221,7 @@ def _add(
     light = paths.throughput.take(rows, axis=0)
     light *= world.lights.spectra.take(row, axis=0)
     light *= strength
-    found[paths.number[rows]] += light
+    found[paths.number.take(rows)] += light
 
 
 def _scattered(paths: Paths, model: Model, met: Meeting, draw: Pair) -> Paths:

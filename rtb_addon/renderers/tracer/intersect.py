@@ -151,7 +151,9 @@ class Surfaces:
         if self._uvs is not None:
             a, b, c = self._uvs.take(hits.triangle, axis=2)
             uvs = a + hits.u * (b - a) + hits.v * (c - a)
-        return Places(faces, normals, points + faces * rows[12], rows[12], side, tangents, uvs)
+        # A copy, for a view would keep the whole of rows.
+        lift = rows[12].copy()
+        return Places(faces, normals, points + faces * lift, lift, side, tangents, uvs)
 
     def radius(self) -> float:
         """Return the radius [m] of a sphere around everything; 1 when there is nothing."""

@@ -32,7 +32,7 @@ class Hits(NamedTuple):
         """Return some of them."""
         if len(rows) == len(self.u):
             return self
-        return Hits(self.triangle[rows], self.distance[rows], self.u[rows], self.v[rows])
+        return Hits(self.triangle.take(rows), self.distance.take(rows), self.u.take(rows), self.v.take(rows))
 
 
 class Kernel(Protocol):

@@ -28,7 +28,7 @@ class Matte:
 
     def evaluate(self, met: Meeting, rows: IntArray, towards: FloatArray) -> tuple[FloatArray, FloatArray]:
         """Return cos / pi twice: it is the density of scattered() as well."""
-        density = lobe(dot(met.places.normals, towards)[rows])
+        density = lobe(dot(met.places.normals, towards).take(rows))
         return column(density), density
 
     def scattered(self, met: Meeting, u: FloatArray, v: FloatArray) -> Onward:
