@@ -9,18 +9,16 @@ import threading
 from argparse import Namespace
 from collections.abc import Iterable, Iterator
 from contextlib import suppress
-from dataclasses import replace
-from pathlib import Path
 
 from . import renderers
 from .background import Event
 from .batch import render_recipe
 from .errors import RecipeError
 from .lifeline import watch_parent
-from .montage import make_montage, write_png
 from .old_recipes import import_recipe
+from .pictures import make_montages, with_montages
 from .progress import ProgressBar
-from .recipe import CONDITIONS, RECIPE, Recipe
+from .recipe import Recipe
 from .recipe.packing import pack_recipe
 from .recipe.problems import findings
 from .recipe.remodeler import remodeled
@@ -45,7 +43,7 @@ def render(said: Namespace) -> int:
         scheduler=said.scheduler,
         cancelled=stopped.is_set,
     )
-    events = _with_montage(Recipe.load(said.folder).overridden(renderer=said.renderer), events)
+    events = with_montages(Recipe.load(said.folder).overridden(renderer=said.renderer), events)
     if said.json:
         return _status(_told(events))
     with ProgressBar() as bar:
@@ -116,49 +114,6 @@ def renderers_installed(said: Namespace) -> int:
         else:
             print(f"{name:<10} {version or 'missing: ' + reason}")
     return 0
-
-
-def make_montages(recipe: Recipe, output: Path | None = None, *, anew: bool = True) -> Iterator[Path]:
-    """
-    Write one picture for each renderer that a recipe's conditions are rendered by.
-
-    Parameters
-    ----------
-    output : the picture's file, else one below images/
-    anew : make even a picture that is younger than all it comes from
-    """
-    cells: dict[str, list[Path | None]] = {}
-    for condition in recipe.conditions:
-        file = recipe.rendering_file(condition)
-        # A rendering that is not there leaves its cell black, so that the others keep their places.
-        cells.setdefault(file.parent.name, []).append(file if file.is_file() else None)
-    for renderer, files in cells.items():
-        if any(files):
-            target = output or recipe.montage_file(renderer)
-            if anew or not _is_up_to_date(target, recipe, [file for file in files if file]):
-                write_png(target, make_montage(files, recipe.montage))
-            yield target
-
-
-def _is_up_to_date(picture: Path, recipe: Recipe, cubes: list[Path]) -> bool:
-    """Return whether a picture is younger than its cubes, their coming and going, and the recipe."""
-    tables = [recipe.folder / name for name in (RECIPE, CONDITIONS)]
-    sources = [*cubes, cubes[0].parent, *(table for table in tables if table.is_file())]
-    return picture.is_file() and picture.stat().st_mtime_ns > max(path.stat().st_mtime_ns for path in sources)
-
-
-def _with_montage(recipe: Recipe, events: Iterable[Event]) -> Iterator[Event]:
-    for event in events:
-        yield _with_pictures(recipe, event) if event.kind == "finished" else event
-
-
-def _with_pictures(recipe: Recipe, event: Event) -> Event:
-    """Make the montages; that some pictures do not fit together spoils no cube."""
-    try:
-        made = [str(file) for file in make_montages(recipe, anew=False)]
-    except RecipeError as error:
-        return replace(event, warnings=(f"no montage: {error}",))
-    return replace(event, file=made[0] if made else "")
 
 
 def _told(events: Iterable[Event]) -> Iterator[Event]:

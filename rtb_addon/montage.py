@@ -17,14 +17,15 @@ from .spectral_image import SpectralImage
 
 
 def make_montage(
-    images: Iterable[SpectralImage | Path | None], options: MontageOptions | None = None
+    images: Iterable[SpectralImage | Path | FloatArray | None], options: MontageOptions | None = None
 ) -> np.ndarray:
     """
     Return one picture of many spectral images, as 8-bit sRGB.
 
     Parameters
     ----------
-    images : cubes, or files of cubes, which are read one after the other; None leaves a cell black
+    images : cubes, files of cubes, which are read one after the other, or what tristimulus() made of
+        them; None leaves a cell black
     options : grid, tone map and scale; RenderToolbox3's grid if None
 
     Returns
@@ -38,7 +39,7 @@ def make_montage(
     tone map counts empty cells.
     """
     options = options or MontageOptions()
-    cells = [None if image is None else _tristimulus(image) for image in images]
+    cells = [None if image is None else tristimulus(image) for image in images]
     return srgb8(tone_mapped(arranged(cells, options), options.tone_map), options.scale)
 
 
@@ -74,8 +75,10 @@ def write_png(path: Path, picture: np.ndarray) -> None:
         Image.fromarray(picture).save(temporary, format="PNG")
 
 
-def _tristimulus(image: SpectralImage | Path) -> FloatArray:
-    """Return X, Y, Z in single precision: a tenth of the cube, which can go."""
+def tristimulus(image: SpectralImage | Path | FloatArray) -> FloatArray:
+    """Return X, Y, Z in single precision, (height, width, 3): a tenth of the cube, which can go."""
+    if isinstance(image, np.ndarray):
+        return image
     cube = SpectralImage.load(image) if isinstance(image, Path) else image
     return xyz(cube).astype(np.float32)
 

@@ -11,6 +11,7 @@ FLOORS = {
     "rtb_addon/__main__.py": 6,
     "rtb_addon/command_line.py": 6,
     "rtb_addon/progress.py": 6,
+    "rtb_addon/pictures.py": 6,
     "rtb_addon/blender": 5,
     "rtb_addon/batch": 5,
     "rtb_addon/worker.py": 5,
