@@ -141,6 +141,30 @@ def test_plastic_wears_a_picture_under_its_coat(tmp_path, coloured):
     assert_within_noise(picture(one, tmp_path), expected, floor=3e-3)
 
 
+def test_several_surfaces_show_pictures_of_both_kinds_side_by_side(tmp_path, coloured, spectral):
+    one = sheet(bitmap(coloured), size=(4, 6), window=(-1.0, 1.0, -1.0, 3.0))
+    others = {"other": ("second", spectral), "again": ("third", spectral)}
+    made = {
+        name: Material(name, "matte", {"diffuseReflectance": TextureUse(texture)})
+        for name, (texture, _) in others.items()
+    }
+    textures = {name: replace(bitmap(path), id=name) for name, path in others.values()}
+    textures["third"] = replace(bitmap(spectral, scaleU=-1.0, offsetU=1.0), id="third")
+    half = SHEET.vertices * np.array([0.5, 1, 1], np.float32)
+    narrow = Mesh(half, SHEET.triangles, None, SHEET.uvs)
+    above = [Shape(name, narrow, at(x, 2, 0), name) for name, x in [("other", -0.5), ("again", 0.5)]]
+    one = replace(
+        one,
+        shapes=(*one.shapes, *above),
+        materials={**one.materials, **made},
+        textures={**one.textures, **textures},
+        film=replace(one.film, width=8),
+    )
+    shown = picture(one, tmp_path).radiance
+    np.testing.assert_allclose(shown[3:, ::2], in_bands(coloured), rtol=1e-5, atol=1e-6)
+    np.testing.assert_allclose(shown[:3], np.hstack([SPECTRA, SPECTRA[:, ::-1]]), rtol=1e-5, atol=1e-6)
+
+
 def test_another_picture_of_the_same_kind_recompiles_nothing(tmp_path, spectral):
     picture(sheet(bitmap(spectral)), tmp_path)
     planes = {f"T.{nm},000000nm": RANDOM.random((7, 9)).astype(np.float32) for nm in range(400, 701, 50)}

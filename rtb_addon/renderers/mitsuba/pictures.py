@@ -10,6 +10,7 @@ This module is imported only by what renders with Mitsuba, after its variant is 
 from __future__ import annotations
 
 from collections.abc import Sequence
+from pathlib import Path
 from typing import Any
 
 import drjit as dr
@@ -18,7 +19,7 @@ import numpy as np
 
 from ...spectra import BandKind, Bands, FloatArray
 from ..pictures import Picture, read_picture
-from .lobes import Lobe
+from .lobes import Lobe, PictureUse
 from .picture_lookup import Layout, taps
 from .textures_xml import WRAPS
 
@@ -40,26 +41,20 @@ class Pictures:
 
     def __init__(self, lobes: Sequence[Lobe | None], bands: Bands, kind: BandKind, padded: int) -> None:
         self._packets = padded // _FEW
-        few, many, weights = [], [], []
+        store = _Store(bands, kind, padded)
         layout = np.zeros((len(lobes), _NUMBERS), np.uint32)
         places = np.zeros((len(lobes), 4), np.float32)
         for number, lobe in enumerate(lobes):
-            if lobe is None or (use := lobe.picture) is None:
-                continue
-            picture = read_picture(use.file, use.gamma)
-            height, width, channels = picture.texels.shape
-            small = channels <= _FEW
-            into = few if small else many
-            first = sum(len(block) for block in into)
-            into.append(_as_stored(picture, bands, kind, padded))
-            kept = (1 if small else 2), len(weights) * _FEW
-            layout[number, :7] = first, width, height, WRAPS.index(use.wrap), use.nearest, *kept
-            places[number] = use.place
-            weights.append(_weights(picture, bands, kind, padded))
-        self.any = bool(weights)
-        self._few, self._many = bool(few), bool(many)
+            if lobe is not None and (use := lobe.picture) is not None:
+                first, width, height, kept, row = store.add(use)
+                ways = WRAPS.index(use.wrap), use.nearest
+                layout[number, :7] = first, width, height, *ways, kept, row
+                places[number] = use.place
+        self._few, self._many = bool(store.few), bool(store.many)
+        self.any = self._few or self._many
         self._layout, self._places = mi.UInt32(layout.ravel()), _table([places])
-        self._few_texels, self._many_texels, self._weights = _table(few), _table(many), _table(weights)
+        tables = (_table(blocks) for blocks in (store.few, store.many, store.weights))
+        self._few_texels, self._many_texels, self._weights = tables
 
     def reflectance(self, lobe, uv, plain: list, active) -> list:
         """Return the spectrum of a lobe's picture at a place, or the plain one where it has none."""
@@ -102,6 +97,30 @@ class Pictures:
 
 def _as_it_is(lobe, uv, plain: list) -> list:
     return plain
+
+
+class _Store:
+    """Collects the texels of pictures, each once however many surfaces show it."""
+
+    def __init__(self, bands: Bands, kind: BandKind, padded: int) -> None:
+        self.few: list[FloatArray] = []
+        self.many: list[FloatArray] = []
+        self.weights: list[FloatArray] = []
+        self._how = bands, kind, padded
+        self._known: dict[tuple[Path, float], tuple[int, ...]] = {}
+
+    def add(self, use: PictureUse) -> tuple[int, ...]:
+        """Return the first texel, width, height, kind, and row of weights of a picture."""
+        key = use.file, use.gamma
+        if key not in self._known:
+            picture = read_picture(*key)
+            height, width, channels = picture.texels.shape
+            kept, into = (1, self.few) if channels <= _FEW else (2, self.many)
+            first = sum(len(block) for block in into)
+            self._known[key] = first, width, height, kept, len(self.weights) * _FEW
+            into.append(_as_stored(picture, *self._how))
+            self.weights.append(_weights(picture, *self._how))
+        return self._known[key]
 
 
 def _as_stored(picture: Picture, bands: Bands, kind: BandKind, padded: int) -> FloatArray:
