@@ -12,6 +12,7 @@ the body were white between the first and the last time.
 
 from __future__ import annotations
 
+from abc import ABC, abstractmethod
 from collections.abc import Sequence
 
 import numpy as np
@@ -26,7 +27,7 @@ from .smooth import mirrored
 from .tables import Palette, numbers
 
 
-class _Plastic:
+class _Plastic(ABC):
     """What smooth and rough plastics share."""
 
     single = False
@@ -45,8 +46,9 @@ class _Plastic:
         some = met.only(rows)
         return self._evaluated(some, some.frame.local(towards.take(rows, axis=1)))
 
+    @abstractmethod
     def _evaluated(self, met: Meeting, towards: FloatArray) -> tuple[FloatArray, FloatArray]:
-        raise NotImplementedError
+        """Return f cos and the density for directions in the surface's own frame."""
 
 
 class Plastic(_Plastic):
