@@ -1,4 +1,4 @@
-"""The analytic sphere: RenderToolbox3's stored slice, and the tracer beside it."""
+"""The analytic sphere: RenderToolbox3's stored slice, and the other renderers beside it."""
 
 import csv
 import os
@@ -86,12 +86,13 @@ def test_the_centre_and_the_highlight_have_their_radiances(analytic):
     assert (analytic[..., 1] > 0).sum() == 23_798
 
 
+@pytest.mark.parametrize("name", ["tracer", "mitsuba"])
 @pytest.mark.parametrize("variant", ["ward", "ward-duer", "balanced"])
-def test_the_tracer_sees_the_same_sphere(variant, tmp_path):
+def test_renderers_of_triangles_see_the_same_sphere(name, variant, tmp_path):
     """Away from rim and shadow within 1e-3 of the brightest: what is left is the facets of the mesh."""
     exact = picture("sphere", simple_sphere(variant), tmp_path)[..., 1]
     # Sixteen samples of a pixel see more than its middle: the mean of the pixels beside it belongs to it too.
-    traced = picture("tracer", simple_sphere(variant, rings=200, samples=16), tmp_path)[..., 1]
+    traced = picture(name, simple_sphere(variant, rings=200, samples=16), tmp_path)[..., 1]
     column, row = np.meshgrid(np.arange(201) - 100, 100 - np.arange(201))
     inner = column**2 + row**2 < 80**2
     diffuse = inner & (exact > 0) & ((column - 33) ** 2 + (row - 33) ** 2 > 25**2)

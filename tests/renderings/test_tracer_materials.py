@@ -1,5 +1,7 @@
 """The tracer's materials against closed forms: what they scatter, where, and how they sample it."""
 
+from dataclasses import replace
+
 import numpy as np
 import pytest
 from scipy import special
@@ -25,6 +27,7 @@ from tests.renderings.tracer_scenes import (
     SQUARE,
     assert_within_noise,
     ball,
+    cube,
     facing,
     lamp,
     looking_down,
@@ -488,3 +491,26 @@ def test_materials_that_cannot_be_are_refused_in_a_sentence(tmp_path, material, 
     with pytest.raises(RecipeError) as refused:
         patch_of([material], tmp_path)
     assert str(refused.value) == sentence
+
+
+# All of them
+
+
+def everything(seed=0):
+    """Return balls of every kind of material in a row, in a glowing box."""
+    kinds = [*SAMPLED.values(), metal(0.27, 2.78), mirror(), glass("thinglass"), glass(), ward("gloss")]
+    materials = [replace(one, id=f"m{k}") for k, one in enumerate(kinds)]
+    materials += [mask(0.5, "m0", "holes"), blend(0.5, "m1", "holes", "mix"), matte("grey")]
+    balls = [Shape(one.id, ball(0.4, 8), matrix((k, 0, 0)), one.id) for k, one in enumerate(materials)]
+    room = Shape(
+        "room", cube(inwards=True), matrix((5.5, 0, 0), (7, 0, 0), (0, 3, 0), (0, 0, 3)), "grey", RADIANCE
+    )
+    camera = Camera("c", "orthographic", matrix((5.5, 0, 2)), (-6, 6, -0.5, 0.5))
+    return scene([*balls, room], [], materials, camera, depth=5, samples=4, size=(48, 4), seed=seed)
+
+
+def test_a_scene_of_all_materials_gives_the_same_bits_and_another_seed_others(tmp_path):
+    first = picture(everything(), tmp_path)
+    np.testing.assert_array_equal(picture(everything(), tmp_path), first)
+    assert (picture(everything(seed=1), tmp_path) != first).any()
+    assert np.isfinite(first).all()

@@ -18,6 +18,7 @@ _MATERIALS = {
     "opacity": (0, 1),
 }
 _TEXTURES = {f"{name}{axis}": (-1e6, 1e6) for name in ("checksPer", "offset", "scale") for axis in "UV"}
+_TEXTURES["gamma"] = (-1, 10)
 _WORDS = {
     "wrapMode": ("repeat", "mirror", "clamp"),
     "filterMode": ("ewa", "trilinear", "bilinear", "nearest"),

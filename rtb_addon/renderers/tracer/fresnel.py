@@ -41,9 +41,11 @@ def conductor(cosine: FloatArray, eta: FloatArray, k: FloatArray) -> FloatArray:
     difference = eta * eta - k * k - sin2
     both = np.sqrt(difference * difference + 4 * (eta * k) ** 2)
     twice = 2 * c * np.sqrt(np.maximum((both + difference) / 2, 0))
-    across = (both + cos2 - twice) / (both + cos2 + twice)
+    # Whatever the index, nothing is divided by nothing.
+    tiny = np.float32(1e-30)
+    across = (both + cos2 - twice) / (both + cos2 + twice + tiny)
     low, high = both * cos2 + sin2 * sin2, twice * sin2
-    return across * (1 + (low - high) / (low + high)) / 2
+    return across * (1 + (low - high) / (low + high + tiny)) / 2
 
 
 def diffuse(eta: FloatArray) -> FloatArray:
