@@ -21,6 +21,8 @@ class Fidelity(NamedTuple):
 
 EXACT = Fidelity("exact")
 ABSENT = Fidelity("absent")
+# Mitsuba's colours have three components, each the coefficient of a spectrum.
+_UP_TO_THREE = Fidelity("exact", "of at most three different spectra in all")
 
 # feature ("material matte", "light spot", "camera perspective" ...) -> renderer -> fidelity
 TABLE: Mapping[str, Mapping[str, Fidelity]] = {
@@ -33,7 +35,7 @@ TABLE: Mapping[str, Mapping[str, Fidelity]] = {
     "material mirror": {"mitsuba": EXACT, "tracer": EXACT},
     "material plastic": {"mitsuba": EXACT, "tracer": EXACT},
     "material roughplastic": {"mitsuba": EXACT, "tracer": EXACT},
-    "material blend": {"mitsuba": EXACT, "tracer": EXACT},
+    "material blend": {"mitsuba": _UP_TO_THREE, "tracer": EXACT},
     "material mask": {"mitsuba": EXACT, "tracer": EXACT},
     "light point": {"mitsuba": EXACT, "tracer": EXACT, "sphere": EXACT},
     "light spot": {"mitsuba": EXACT, "tracer": EXACT},
