@@ -203,6 +203,7 @@ def test_the_tracer_never_imports_mitsuba():
     }
     assert names <= {
         "__future__",
+        "abc",
         "collections",
         "dataclasses",
         "embreex",
