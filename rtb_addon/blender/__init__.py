@@ -6,11 +6,19 @@ from .conditions import set_conditions
 from .properties import register, unregister
 
 
-def read_recipe(scene):
-    """Return the recipe of a scene (a SceneRecipe); the last look at Blender, from its main thread."""
+def read_recipe(scene, remodel=None):
+    """
+    Return the recipe of a scene (a SceneRecipe); the last look at Blender, from its main thread.
+
+    Parameters
+    ----------
+    remodel : function that edits the scene for one condition, ``remodel(scene, condition)``: modifiers, shape
+        keys, geometry nodes, the frame, anything; each condition then has its own parent scene, conditions
+        that look the same share one, and the scene is as before afterwards
+    """
     from . import reading
 
-    return reading.read_recipe(scene)
+    return reading.read_recipe(scene, remodel)
 
 
 def recipe_folder(scene):

@@ -3,16 +3,18 @@
 from __future__ import annotations
 
 from collections import Counter
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from pathlib import Path
 
 import bpy
 
-from ..conditions import Conditions
+from ..conditions import Condition, Conditions
 from ..errors import RecipeError
 from ..recipe import Conventions, MontageOptions, RecipeOptions, write_recipe
 from ..scene.write_numbers import shortest
+from .baked import PARENT_COLUMNS, Remodel, baked, merged, parent_files
+from .conditions import IMAGE_NAME
 from .evaluation import as_rendered
 from .folders import blend_folder, recipe_folder, recipe_name
 from .parent import Parent, ParentWriter
@@ -67,32 +69,79 @@ class SceneRecipe:
         return chosen
 
 
-def read_recipe(scene: bpy.types.Scene) -> SceneRecipe:
-    """Return the recipe of a scene as it renders at its current frame."""
-    if scene.camera is None:
-        raise RecipeError(f"the scene {scene.name} has no camera, add one")
+@dataclass(frozen=True)
+class _Look:
+    """A scene at one time: its parent scene, the name of its camera, and remarks."""
+
+    parent: Parent
+    camera: str
+    remarks: tuple[str, ...]
+
+
+def read_recipe(scene: bpy.types.Scene, remodel: Remodel | None = None) -> SceneRecipe:
+    """
+    Return the recipe of a scene as it renders at its current frame.
+
+    Parameters
+    ----------
+    remodel : edits the scene for one condition, ``remodel(scene, condition)``; each condition then has its
+        own parent scene, and the scene is as before afterwards
+    """
     name = recipe_name(scene)
-    seen = as_rendered(scene, seen_in)
-    parent = ParentWriter(seen, scene.name, f"RenderToolbox in Blender {bpy.app.version_string}").write()
-    if not any(each.category == "light" for each in parent.statements):
-        raise RecipeError(f"the scene {scene.name} has no light, add a lamp or let a mesh or the world shine")
-    table, files = _table(scene, name, parent), SpectrumFiles()
-    mappings = mappings_text(parent.statements, table, files, blend_folder())
+    table, files = _table(scene, name), SpectrumFiles()
+    looks = [_look(scene)] if remodel is None else _baked(scene, table, remodel)
+    camera = _name_cameras(table, looks)
+    parents = [each.parent for each in looks]
+    names = [name] if remodel is None else table.names
+    cells, further = parent_files(names, [each.content for each in parents])
+    if further:
+        table.varied(PARENT_COLUMNS[0], cells)
+    statements = merged(names, [each.statements for each in parents])
+    mappings = mappings_text(statements, table, files, blend_folder())
     return SceneRecipe(
         name,
-        _options(scene, parent),
+        _options(scene, camera),
         MontageOptions(scene.rtb.montage_columns or None, scene.rtb.montage_fill),
-        parent.content,
+        parents[0].content,
         table.conditions(name),
         mappings,
-        files.contents,
+        {**files.contents, **further},
         _provenance(),
-        tuple(dict.fromkeys(seen.remarks)),
+        tuple(dict.fromkeys(remark for each in looks for remark in each.remarks)),
         _folder(scene),
     )
 
 
-def _options(scene, parent: Parent) -> RecipeOptions:
+def _look(scene) -> _Look:
+    """Return the scene as it is now."""
+    if scene.camera is None:
+        raise RecipeError(f"the scene {scene.name} has no camera, add one")
+    seen = as_rendered(scene, seen_in)
+    parent = ParentWriter(seen, scene.name, f"RenderToolbox in Blender {bpy.app.version_string}").write()
+    if not any(each.category == "light" for each in parent.statements):
+        raise RecipeError(f"the scene {scene.name} has no light, add a lamp or let a mesh or the world shine")
+    return _Look(parent, scene.camera.name_full, tuple(seen.remarks))
+
+
+def _baked(scene, table: Table, remodel: Remodel) -> list[_Look]:
+    """Return the scene as a function remodels it for each condition."""
+    if not table.names:
+        raise RecipeError("there are no conditions to remodel the scene for, add one")
+    if own := [each for each in PARENT_COLUMNS if each in table.variables]:
+        raise RecipeError(f"the column {own[0]} is written from what the function does, take it out")
+    rows = zip(table.names, table.typed, strict=True)
+    conditions = [Condition(name, {IMAGE_NAME: name, **cells}, 0) for name, cells in rows]
+    known: dict[bytes, bytes] = {}  # parents that are the same take their room in memory once
+
+    def look() -> _Look:
+        found = _look(scene)
+        found.parent.content = known.setdefault(found.parent.content, found.parent.content)
+        return found
+
+    return baked(scene, conditions, remodel, look)
+
+
+def _options(scene, camera: str) -> RecipeOptions:
     settings = scene.rtb
     return RecipeOptions(
         renderer=settings.renderer,
@@ -103,12 +152,12 @@ def _options(scene, parent: Parent) -> RecipeOptions:
         seed=settings.seed,
         integrator=settings.integrator,
         depth=settings.depth,
-        camera=_camera(scene.camera.name_full, parent, "the scene's camera"),
+        camera=camera,
     )
 
 
-def _table(scene, name: str, parent: Parent) -> Table:
-    """Return the scene's conditions; a camera among the cells is named by its id."""
+def _table(scene, name: str) -> Table:
+    """Return the scene's conditions."""
     settings = scene.rtb
     variables = [each.name for each in settings.variables]
     if twins := [each for each, count in Counter(variables).items() if count > 1 or not each.strip()]:
@@ -121,11 +170,21 @@ def _table(scene, name: str, parent: Parent) -> Table:
             raise RecipeError(
                 f"the condition {names[-1]} has {len(cells)} cells for {len(variables)} variables"
             )
-        row = dict(zip(variables, cells, strict=True))
-        if _CAMERA in row:
-            row[_CAMERA] = _camera(row[_CAMERA], parent, f"the camera of the condition {names[-1]}")
-        rows.append(row)
+        rows.append(dict(zip(variables, cells, strict=True)))
     return Table(variables, names, rows)
+
+
+def _name_cameras(table: Table, looks: Sequence[_Look]) -> str:
+    """Return the id of the scene's camera; cameras among the cells, or that vary, become ids as well."""
+    ids = [_camera(each.camera, each.parent, "the scene's camera") for each in looks]
+    if _CAMERA in table.variables:
+        for row, name in enumerate(table.names):
+            parent = looks[row if len(looks) > 1 else 0].parent
+            cell = _camera(table.cells[row][_CAMERA], parent, f"the camera of the condition {name}")
+            table.cells[row][_CAMERA] = cell
+    elif len(set(ids)) > 1:
+        table.varied(_CAMERA, ids)
+    return ids[0]
 
 
 def _camera(name: str, parent: Parent, what: str) -> str:

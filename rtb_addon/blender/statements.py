@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 from dataclasses import dataclass
+from typing import Any
 
 from ..spectra import Spectrum, Unit
 
@@ -40,6 +41,19 @@ class Spoken:
 
 
 @dataclass(frozen=True)
+class Varied:
+    """
+    Spectra or numbers that differ from condition to condition, where parent scenes are baked.
+
+    Parameters
+    ----------
+    values : one for each condition
+    """
+
+    values: tuple[Any, ...]
+
+
+@dataclass(frozen=True)
 class Statement:
     """
     A material or light in the vocabulary.
@@ -57,5 +71,5 @@ class Statement:
     name: str
     category: str
     model: str
-    spectra: Mapping[str, Spoken | Spectrum]
-    numbers: Mapping[str, float]
+    spectra: Mapping[str, Spoken | Spectrum | Varied]
+    numbers: Mapping[str, float | Varied]

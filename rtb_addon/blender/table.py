@@ -14,7 +14,7 @@ from ..spectra import Spectrum, Unit
 from ..spectra.files import spd_text
 from ..spectra.spoken import spectrum_from
 from .conditions import IMAGE_NAME
-from .statements import Spoken, Statement
+from .statements import Spoken, Statement, Varied
 
 _VARIABLE = re.compile(r"\(([^()]+)\)")
 _FOLDER = "resources"
@@ -85,12 +85,23 @@ class Table:
         variable = used[0] if alone else self._free(f"{clean(name)}Spectrum")
         if not alone:
             self.variables.append(variable)
-        for row, cells in enumerate(self.typed):
+        for row in range(len(self.names)):
             said = [self._cell(row, each, spoken.owner) for each in used]
-            text = _VARIABLE.sub(lambda found, cells=cells: cells[found[1]], spoken.text)
-            self.cells[row][variable] = fill(text, "-".join(said))
+            self.cells[row][variable] = fill(self.filled_in(row, spoken), "-".join(said))
         self._columns[spoken.treatment] = variable
         return variable
+
+    def varied(self, name: str, cells: Sequence[str]) -> str:
+        """Return a new variable, called like a name, with a cell for each condition."""
+        variable = self._free(name)
+        self.variables.append(variable)
+        for row, cell in zip(self.cells, cells, strict=True):
+            row[variable] = cell
+        return variable
+
+    def filled_in(self, row: int, spoken: Spoken) -> str:
+        """Return the text of a spectrum with the cells of a condition in it."""
+        return _VARIABLE.sub(lambda found: self._cell(row, found[1], spoken.owner), spoken.text)
 
     def _cell(self, row: int, variable: str, owner: str) -> str:
         if variable not in self.typed[row]:
@@ -128,19 +139,39 @@ def mappings_text(
         for parameter, spectrum in each.spectra.items():
             value = _value(spectrum, each.name, table, files, folder, users)
             lines.append(f"{each.id}:{parameter}.spectrum = {value}")
-        lines += [f"{each.id}:{name}.float = {shortest(value):.9g}" for name, value in each.numbers.items()]
+        for parameter, number in each.numbers.items():
+            value = _number(number, f"{each.name} {parameter}", table)
+            lines.append(f"{each.id}:{parameter}.float = {value}")
     body = "".join(f"    {line}\n" for line in lines)
     return f"Generic {{\n{body}}}\n" if body else ""
 
 
+def _number(number: float | Varied, name: str, table: Table) -> str:
+    if isinstance(number, Varied):
+        cells = [f"{shortest(each):.9g}" for each in number.values]
+        return f"({table.varied(clean(name), cells)})"
+    return f"{shortest(number):.9g}"
+
+
+def _varied(spectra: Varied, name: str, table: Table, files: SpectrumFiles, folder: Path | None) -> str:
+    """Return the variable for the files of spectra of which each condition has its own."""
+    cells = []
+    for row, each in enumerate(spectra.values):
+        heard = each if isinstance(each, Spectrum) else _heard(each, table.filled_in(row, each), folder)
+        cells.append(files.add(name, heard))
+    return f"({table.varied(f'{clean(name)}Spectrum', cells)})"
+
+
 def _value(
-    spectrum: Spoken | Spectrum,
+    spectrum: Spoken | Spectrum | Varied,
     name: str,
     table: Table,
     files: SpectrumFiles,
     folder: Path | None,
     users: Mapping[str, set[tuple]],
 ) -> str:
+    if isinstance(spectrum, Varied):
+        return _varied(spectrum, name, table, files, folder)
     if isinstance(spectrum, Spectrum):
         return files.add(name, spectrum)
 
@@ -172,7 +203,8 @@ def _heard(spoken: Spoken, text: str, folder: Path | None) -> Spectrum:
 
 def _treatments_by_variable(statements: Iterable[Statement]) -> dict[str, set[tuple]]:
     found: dict[str, set[tuple]] = {}
-    for spectrum in (spectrum for each in statements for spectrum in each.spectra.values()):
+    said = [spectrum for each in statements for spectrum in each.spectra.values()]
+    for spectrum in [one for each in said for one in (each.values if isinstance(each, Varied) else (each,))]:
         if isinstance(spectrum, Spoken):
             for variable in _VARIABLE.findall(spectrum.text):
                 found.setdefault(variable, set()).add(spectrum.treatment)
