@@ -8,6 +8,7 @@ from contextlib import suppress
 from pathlib import Path
 
 from ..rtb_addon.background import Event, EventStream, start_child, stop
+from . import row_states
 
 GRACE = 0.5  # [s] that a child has to stop when asked, before it is ended
 NICENESS = 5
@@ -94,6 +95,8 @@ class ChildBatch:
             self._fractions[event.condition] = event.fraction
         elif event.condition:
             self._fractions.pop(event.condition, None)
+        if event.condition:
+            row_states.take(event.condition, event.kind)
         if event.kind == "failed":
             self.failures.append(": ".join(filter(None, (event.condition, event.message))))
         if event.kind == "finished" and event.file:

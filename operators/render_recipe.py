@@ -4,7 +4,7 @@ import bpy
 
 from ..rtb_addon.blender import read_recipe
 from ..rtb_addon.errors import RecipeError
-from . import findings, running
+from . import findings, row_states, running
 
 
 class RTB_OT_render_recipe(bpy.types.Operator):
@@ -25,6 +25,7 @@ class RTB_OT_render_recipe(bpy.types.Operator):
             folder = findings.exported(read_recipe(context.scene))
         except RecipeError as error:
             return findings.refuse(self, error)
+        row_states.begin(context.scene)
         batch = running.start(folder)
         return self._followed(batch) if bpy.app.background else {"FINISHED"}
 

@@ -10,7 +10,7 @@ from pathlib import Path
 
 import bpy
 
-from . import findings, montages
+from . import findings, montages, row_states
 from .child_batch import ChildBatch
 from .tell import tell
 
@@ -42,6 +42,7 @@ def stop() -> None:
     if batch is not None:
         batch.stop()
         batch = None
+        row_states.end()
     if bpy.app.timers.is_registered(_look):
         bpy.app.timers.unregister(_look)
 
@@ -62,6 +63,7 @@ def _conclude(ended: ChildBatch) -> None:
     """Tell how a batch ended and show its montage, in an Image Editor where one is open."""
     global batch
     batch = None
+    row_states.end()
     findings.errors.extend(ended.failures)
     findings.remarks.extend(text for text in ended.warnings if text not in findings.remarks)
     if ended.montage is not None and ended.montage.is_file():
@@ -97,6 +99,7 @@ def _redraw() -> None:
 def _before_loading(*_) -> None:
     stop()
     findings.clear()
+    row_states.clear()
 
 
 def register() -> None:
@@ -108,4 +111,5 @@ def unregister() -> None:
     """Leave no child and no timer behind."""
     stop()
     findings.clear()
+    row_states.clear()
     bpy.app.handlers.load_pre.remove(_before_loading)

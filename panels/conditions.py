@@ -2,19 +2,20 @@
 
 import bpy
 
+from ..operators import row_states
 from ..operators.add_condition import RTB_OT_add_condition
 from ..operators.add_variable import RTB_OT_add_variable
 from ..operators.move_condition import RTB_OT_move_condition
 from ..operators.remove_condition import RTB_OT_remove_condition
 from ..operators.select_variable import RTB_OT_select_variable
 from ..operators.turn_page import RTB_OT_turn_page
-from ..rtb_addon.blender.folders import recipe_name
 from .condition_menus import RTB_MT_conditions
 from .spectrum_menus import RTB_MT_cell
 
 CELL = 66  # narrowest cell in which a word can be read [pixels at scale 1]
 BESIDE = 52  # what borders and the buttons at the right take [pixels at scale 1]
 ROWS = 6
+ICONS = {"running": "TIME", "done": "CHECKMARK", "failed": "ERROR", "changed": "FILE_REFRESH", "": "BLANK1"}
 
 
 class RTB_UL_conditions(bpy.types.UIList):
@@ -23,8 +24,10 @@ class RTB_UL_conditions(bpy.types.UIList):
     bl_idname = "RTB_UL_conditions"
 
     def draw_item(self, context, layout, owner, item, icon, active, active_property, index):
-        row = layout.row(align=True)
-        name = f"{recipe_name(context.scene)}-{index + 1:03}"
+        row, scene = layout.row(align=True), context.scene
+        if row_states.known(scene):
+            row.label(text="", icon=ICONS[row_states.state(scene, item, index)])
+        name = row_states.row_name(scene, item, index)
         row.prop(item, "name", text="", emboss=False, placeholder=name)
         for number in columns_shown(context):
             if number < len(item.cells):
@@ -75,6 +78,8 @@ def draw_header(layout, context, settings) -> None:
     shown = columns_shown(context)
     outer = layout.row(align=True)
     names = outer.row(align=True)
+    if row_states.known(context.scene):
+        names.label(text="", icon="BLANK1")
     names.label(text="Name")
     for number in shown:
         active = number == settings.active_variable

@@ -319,3 +319,47 @@ def test_columns_that_do_not_fit_are_on_other_pages(settings, extension):
 @pytest.mark.parametrize("menu", ["RTB_MT_conditions", "RTB_MT_designs", "RTB_MT_variable"])
 def test_menus_hold_operators_that_are_there(settings, extension, menu):
     assert drawn(extension, menu).names("operator")
+
+
+@pytest.fixture
+def states(extension):
+    """The module that knows how the last batch has left the rows; nothing was rendered yet."""
+    module = sys.modules[f"{extension}.operators.row_states"]
+    module.clear()
+    yield module
+    module.clear()
+
+
+def shown(states) -> list[str]:
+    scene = bpy.context.scene
+    return [states.state(scene, row, number) for number, row in enumerate(scene.rtb.conditions)]
+
+
+def test_each_row_shows_how_the_last_batch_has_left_it(settings, extension, states):
+    assert not states.known(bpy.context.scene)
+    states.begin(bpy.context.scene)
+    for name, kind in (("a", "cached"), ("b", "started"), ("c", "failed")):
+        states.take(name, kind)
+    assert shown(states) == ["done", "running", "failed"]
+    assert len(drawn(extension, "RTB_UL_conditions").names("label")) == 3
+    states.end()
+    assert shown(states) == ["done", "", "failed"]
+
+
+def test_only_the_row_whose_cell_is_changed_is_no_longer_done(settings, states):
+    settings.conditions[2].name = ""
+    states.begin(bpy.context.scene)
+    for name in ("a", "b", f"{bpy.context.scene.name}-003"):
+        states.take(name, "done")
+    assert shown(states) == ["done"] * 3
+    settings.conditions[1].cells[0].value = "0.9"
+    assert shown(states) == ["done", "changed", "done"]
+    settings.conditions[1].cells[0].value = "0.2"
+    assert shown(states) == ["done"] * 3
+
+
+def test_states_belong_to_the_scene_that_was_rendered(settings, states):
+    states.begin(bpy.context.scene)
+    states.take("a", "done")
+    assert states.known(bpy.context.scene)
+    assert not states.known(bpy.data.scenes.new("Other"))
