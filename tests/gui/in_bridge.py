@@ -75,6 +75,40 @@ def recipe(folder: Path) -> dict:
     }
 
 
+def baked() -> dict:
+    """Let a function change, add and remove things for each condition, and compare before with after."""
+    bpy.ops.wm.read_homefile(use_factory_startup=True)
+    scene, cube = bpy.context.scene, bpy.data.objects["Cube"]
+    cube.modifiers.new("Subdivision", "SUBSURF")
+    cube.shape_key_add(name="Basis")
+    cube.shape_key_add(name="Tall").data[0].co = (3, 3, 3)
+    scene.rtb.set_conditions(["imageName", "level"], [("zero", 0), ("two", 2), ("gone", 0), ("as-two", 2)])
+    read_recipe = library("blender").read_recipe
+    before = read_recipe(scene).parent
+
+    def remodel(scene, condition):
+        cube = bpy.data.objects["Cube"]
+        cube.modifiers["Subdivision"].render_levels = int(condition.cells["level"])
+        cube.data.shape_keys.key_blocks["Tall"].value = 0.5
+        scene.frame_set(7)
+        if condition.name == "gone":
+            scene.collection.objects.link(bpy.data.objects.new("Twin", bpy.data.meshes["Cube"].copy()))
+            bpy.data.objects.remove(cube)
+
+    cube_in = [b'id="Cube"' in before]
+    recipe = read_recipe(scene, remodel)
+    parents = {"parent.dae": recipe.parent}
+    parents |= {f"resources/{name}": content for name, content in recipe.resources.items()}
+    return {
+        "same": read_recipe(scene).parent == before,
+        "cells": [each.parent_scene for each in recipe.conditions],
+        "cubes": cube_in + [b'id="Cube"' in parents[each.parent_scene] for each in recipe.conditions],
+        "frame": scene.frame_current,
+        "objects": sorted(bpy.data.objects.keys()),
+        "meshes": bpy.data.meshes.keys(),
+    }
+
+
 def undone() -> list[str]:
     """Return a reflectance before a change, after it, undone and redone."""
     bpy.ops.wm.read_homefile(use_factory_startup=True)
@@ -96,6 +130,7 @@ if __name__ == "__main__":
         report = {
             "colours": {space: colours_in(space, folder) for space in SPACES},
             "recipe": recipe(folder),
+            "baked": baked(),
             "undone": undone(),
         }
     except BaseException:

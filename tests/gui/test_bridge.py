@@ -37,5 +37,15 @@ def test_the_scene_is_read_as_it_renders_and_left_alone(report):
         assert line in report["recipe"]["mappings"]
 
 
+def test_what_a_function_does_for_each_condition_is_baked_and_taken_back(report):
+    baked = report["baked"]
+    assert baked["cells"] == [
+        *("parent.dae", "resources/parent-two.dae", "resources/parent-gone.dae", "resources/parent-two.dae")
+    ]
+    assert baked["cubes"] == [True, True, True, False, True]
+    assert baked["same"]
+    assert (baked["frame"], baked["objects"], baked["meshes"]) == (1, ["Camera", "Cube", "Light"], ["Cube"])
+
+
 def test_undo_and_redo_reach_our_properties(report):
     assert report["undone"] == ["0.5", "0.9", "0.5", "0.9"]
