@@ -468,7 +468,7 @@ def test_a_move_in_blender_is_the_same_as_by_a_mapping(still, box, resolved, edi
         )
         for scene in (mapped, exported)
     ]
-    np.testing.assert_allclose(*corners, atol=2e-6)
+    np.testing.assert_allclose(*corners, rtol=1e-6, atol=1e-6)
     assert not np.allclose(corners[0], 0)
 
 
