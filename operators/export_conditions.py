@@ -7,7 +7,6 @@ from bpy_extras.io_utils import ExportHelper
 
 from ..rtb_addon.blender.table_texts import table_rows
 from ..rtb_addon.errors import RecipeError
-from ..rtb_addon.files import write_text
 from ..rtb_addon.spreadsheets import format_rows
 
 
@@ -23,6 +22,8 @@ class RTB_OT_export_conditions(bpy.types.Operator, ExportHelper):
     filter_glob: bpy.props.StringProperty(default="*.txt;*.tsv;*.csv", options={"HIDDEN"})
 
     def execute(self, context):
+        from ..rtb_addon.files import write_text  # enabling need not wait for it
+
         file = Path(bpy.path.abspath(self.filepath))
         separator = "," if file.suffix.lower() == ".csv" else "\t"
         try:

@@ -7,12 +7,15 @@ It lives here and not in Blender's data, so that undo and saving do not touch it
 from __future__ import annotations
 
 from pathlib import Path
+from typing import TYPE_CHECKING
 
 import bpy
 
 from . import findings, montages, row_states
-from .child_batch import ChildBatch
 from .tell import tell
+
+if TYPE_CHECKING:
+    from .child_batch import ChildBatch
 
 INTERVAL = 0.1  # [s] between two looks at what the child has said
 
@@ -21,6 +24,8 @@ batch: ChildBatch | None = None
 
 def start(folder: Path) -> ChildBatch:
     """Start rendering a recipe's folder; with an interface, a timer follows it."""
+    from .child_batch import ChildBatch  # brings subprocess and more, which enabling need not wait for
+
     global batch
     batch = ChildBatch(folder)
     if not bpy.app.background:

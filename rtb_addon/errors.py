@@ -4,7 +4,6 @@ from __future__ import annotations
 
 from collections.abc import Iterable, Iterator
 from contextlib import contextmanager
-from difflib import get_close_matches
 from pathlib import Path
 
 
@@ -67,6 +66,10 @@ def at(file: str | Path | None, line: int | None = None) -> Iterator[None]:
 
 def choices(word: str, known: Iterable[str], limit: int = 12) -> str:
     """Return what could stand in a word's place, the nearest first."""
+    from difflib import (
+        get_close_matches,
+    )  # only when something is wrong: Blender's start does not wait for it
+
     names = {name.lower(): name for name in sorted(known)}
     near = [names[each] for each in get_close_matches(word.lower(), names, n=3)]
     listed = [*near, *(name for name in names.values() if name not in near)]

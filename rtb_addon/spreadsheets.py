@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import csv
 import io
 from collections.abc import Iterable, Sequence
 
@@ -11,6 +10,8 @@ SEPARATORS = "\t;,"
 
 def parse_rows(text: str) -> list[list[str]]:
     """Return the cells of each line that is not empty; tabs separate them, else semicolons, else commas."""
+    import csv  # not before a table is read: Blender's start does not wait for it
+
     first = next((line for line in text.splitlines() if line.strip()), "")
     separator = next((each for each in SEPARATORS if each in first), "\t")
     rows = csv.reader(io.StringIO(text.removeprefix("\ufeff"), newline=""), delimiter=separator)
@@ -19,6 +20,8 @@ def parse_rows(text: str) -> list[list[str]]:
 
 def format_rows(rows: Iterable[Sequence[str]], separator: str = "\t") -> str:
     """Return the text that parse_rows() reads back as the same cells."""
+    import csv
+
     written = io.StringIO()
     csv.writer(written, delimiter=separator, lineterminator="\n").writerows(rows)
     return written.getvalue()

@@ -1,5 +1,6 @@
 """What the user can do: every operator from a script, as the panel's buttons call it."""
 
+import importlib
 import os
 import re
 import subprocess
@@ -15,7 +16,7 @@ PATCHES = ("blue", "green")
 @pytest.fixture
 def module(extension):
     """Return a module of the extension as Blender has loaded it."""
-    return lambda name: sys.modules[f"{extension}.{name}"]
+    return lambda name: importlib.import_module(f"{extension}.{name}")
 
 
 @pytest.fixture

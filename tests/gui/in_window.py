@@ -80,7 +80,10 @@ def render_by_click(driver: Driver):
         driver.region("VIEW_3D", "UI").tag_redraw()
         yield 0.2
     driver.report["drawing"] = drawing.stop()
-    spent = measured(running.ChildBatch, "take"), measured(extension("panels.recipe").RTB_PT_recipe, "draw")
+    spent = (
+        measured(extension("operators.child_batch").ChildBatch, "take"),
+        measured(extension("panels.recipe").RTB_PT_recipe, "draw"),
+    )
     yield from press_button(driver, "VIEW_3D", "UI", index=0)
     driver.report["started by click"] = running.batch is not None
     pulse = Pulse()

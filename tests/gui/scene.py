@@ -1,6 +1,6 @@
 """A small recipe in Blender's default scene: a cube that is painted anew in each condition."""
 
-import sys
+import importlib
 import time
 from pathlib import Path
 
@@ -12,7 +12,7 @@ EXTENSION = "bl_ext.user_default.render_toolbox"
 
 def extension(module: str):
     """Return a module of the extension as Blender has loaded it."""
-    return sys.modules[f"{EXTENSION}.{module}"]
+    return importlib.import_module(f"{EXTENSION}.{module}")
 
 
 def make_recipe(folder: Path, count: int, renderer: str, samples: int, size: tuple[int, int]) -> None:
