@@ -1,5 +1,7 @@
 """Small scenes for the tests of Mitsuba."""
 
+import gc
+
 import numpy as np
 
 from rtb_addon.renderers.interface import RenderOptions
@@ -107,6 +109,8 @@ def kernels(one, folder, name):
     """Return how many kernels a rendering ran, and how many it had to compile."""
     import drjit as dr
 
+    # Kernels know every material that is alive: those of scenes that nobody needs any more must be gone.
+    gc.collect()
     with dr.scoped_set_flag(dr.JitFlag.KernelHistory, True):
         dr.kernel_history_clear()
         picture(one, folder, name=name)

@@ -77,7 +77,9 @@ def test_a_cluster_that_loses_a_worker_in_the_middle_still_renders_everything(fa
     assert killed is not None
     assert not any(map(runs, grandchildren))
     ends = {event["condition"]: event["kind"] for event in events if event.get("condition")}
-    assert ends == dict.fromkeys(NAMES, "done")
+    assert set(ends) == set(NAMES)
+    # The worker that died may have had its cube on disk already: then the second try finds it.
+    assert set(ends.values()) <= {"done", "cached"}
     assert (events[0]["kind"], events[-1]["kind"], events[-1]["finished"]) == (
         "started",
         "finished",

@@ -101,7 +101,7 @@ def other(name, value):
 
 
 def test_other_spectra_and_other_numbers_of_materials_never_recompile_anything(tmp_path):
-    picture(row(), tmp_path)
+    kernels(row(), tmp_path, "first")
     for sort in (Spectrum, float):
         changed = {
             model: {
