@@ -64,10 +64,7 @@ class Driver:
     def photograph(self, name: str) -> np.ndarray:
         """Photograph the screen and return its pixels, (height, width, 3) from the bottom up."""
         file = self.pictures / f"{name}.png"
-        for pause in (0.1, 0.3, 1.0, None):  # X is not always in the mood, for instance while a menu opens
-            if subprocess.run(["xshot", str(file)], check=pause is None).returncode == 0:
-                break
-            time.sleep(pause)
+        subprocess.run(["xshot", str(file)], check=True)
         image = bpy.data.images.load(str(file))
         width, height = image.size
         pixels = np.empty(width * height * 4, np.float32)

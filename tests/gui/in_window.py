@@ -116,8 +116,10 @@ def stop_by_key_and_button(driver: Driver):
     yield from until_stopped(driver, "Esc over IMAGE_EDITOR")
     yield from start(driver)
     region = driver.region("VIEW_3D", "UI")
-    rows = driver.button_rows(driver.photograph("before-cancel"), region, from_left=0.8)
-    yield from driver.click(region.x + 0.83 * region.width, sum(rows[0]) / 2)  # Cancel is the topmost
+    montage, export, *_ = driver.button_rows(driver.photograph("before-cancel"), region, from_left=0.3)
+    height = montage[0] - export[0]
+    # Cancel stands at the right end of the bar, which is above Show Montage.
+    yield from driver.click(region.x + 0.83 * region.width, sum(montage) / 2 + 1.3 * height)
     yield from until_stopped(driver, "Cancel button")
 
 
