@@ -13,11 +13,12 @@ BLOCK = re.compile(r"^```(\w*)\n(.*?)^```", re.M | re.S)
 
 
 def blocks(language: str):
+    """What needs Blender is run in tests/blender."""
     return [
         pytest.param(text, id=f"{page.name}-{at}")
         for page in PAGES
         for at, (kind, text) in enumerate(BLOCK.findall(page.read_text()))
-        if kind == language
+        if kind == language and "import bpy" not in text
     ]
 
 
