@@ -67,8 +67,9 @@ def make_wanted() -> int:
 
 
 def forget() -> None:
-    """Forget all pictures, for files that they were made from may have changed."""
+    """Forget all pictures and wishes, for files that they were made from may have changed."""
     _shown.clear()
+    _wanted.clear()
     if _pictures is not None:
         _pictures.clear()
 

