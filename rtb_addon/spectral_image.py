@@ -45,6 +45,8 @@ class SpectralImage:
     band_kind : what a band's number stands for
     factor : what the renderer's raw numbers were multiplied by to become radiance
     attributes : what else is written in the file: conventions, condition, renderer, key ...
+    standard_error : of each radiance, the same shape and unit, where a renderer was asked for it; a cube's
+        file does not hold it, the layers beside it do
     """
 
     radiance: FloatArray
@@ -52,6 +54,7 @@ class SpectralImage:
     band_kind: BandKind = "averaged"
     factor: float = 1.0
     attributes: Mapping[str, str] = field(default_factory=dict)
+    standard_error: FloatArray | None = None
 
     def __post_init__(self) -> None:
         if self.radiance.ndim != 3 or self.radiance.shape[2] != len(self.bands):
@@ -61,8 +64,13 @@ class SpectralImage:
 
     def scaled(self, factor: float) -> SpectralImage:
         """Return the image with every radiance, and the recorded factor, multiplied by a factor."""
-        radiance = self.radiance * np.float32(factor)
-        return replace(self, radiance=radiance, factor=self.factor * factor)
+        error = self.standard_error
+        return replace(
+            self,
+            radiance=self.radiance * np.float32(factor),
+            factor=self.factor * factor,
+            standard_error=None if error is None else error * np.float32(abs(factor)),
+        )
 
     def with_attributes(self, attributes: Mapping[str, str]) -> SpectralImage:
         """Return the image with more attributes; an old one of the same name gives way."""

@@ -8,9 +8,10 @@ import math
 import re
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass
-from typing import Any, Literal, NamedTuple, TypeVar
+from typing import Any, Literal, NamedTuple, TypeVar, get_args
 
-from ..scene.render_scene import Film, Integrator
+from ..layers import NAMES as LAYERS
+from ..scene.render_scene import Crop, Film, Filter, Integrator
 from ..spectra import BandKind, Bands
 
 _Section = TypeVar("_Section")
@@ -46,6 +47,21 @@ def _are_centres(value: Any) -> bool:
     return all(a < b for a, b in zip((0, *value), value, strict=False))
 
 
+def _is_crop(value: Any) -> bool:
+    if value == ():
+        return True
+    whole = isinstance(value, tuple) and len(value) == 4 and all(_whole(0, "").holds(each) for each in value)
+    return whole and value[2] > 0 and value[3] > 0
+
+
+def _are_layers(value: Any) -> bool:
+    return isinstance(value, tuple) and len(set(value)) == len(value) and set(value) <= set(LAYERS)
+
+
+def _none_or_positive(words: str) -> Rule:
+    return Rule(words, lambda value: value is None or (_is_number(value) and value > 0))
+
+
 RULES: Mapping[str, Rule] = {
     "renderer": Rule(
         "a renderer's name in small letters",
@@ -60,7 +76,12 @@ RULES: Mapping[str, Rule] = {
     "seed": _whole(0, "a whole number, 0 or more"),
     "integrator": _one_of("path", "direct"),
     "depth": _whole(1, "a whole number, 1 or more (2 is direct light)"),
-    "filter": _one_of("box"),
+    "roulette": _whole(0, "the depth from which paths may end at random, 0 for never"),
+    "filter": _one_of(*get_args(Filter)),
+    "crop": Rule("left, top, width and height [pixels], or empty for the whole picture", _is_crop),
+    "until_seconds": _none_or_positive("a number of seconds, or null to take all samples"),
+    "until_error": _none_or_positive("a relative noise such as 0.01, or null to take all samples"),
+    "layers": Rule(f"names out of {', '.join(LAYERS)}", _are_layers),
     "camera": Rule("the id of a camera, or an empty text for the scene's own", lambda v: isinstance(v, str)),
     "units": _one_of("si", "rtb3"),
     "handedness": _one_of("blender", "rtb3"),
@@ -103,7 +124,13 @@ class RecipeOptions(_Checked):
     seed : of the random numbers, the same for every condition
     integrator : path, or direct
     depth : longest path in Mitsuba's counting: 2 is direct light
+    roulette : depth from which paths may end at random; 0: they never do
     filter : reconstruction filter
+    crop : left, top, width and height of the part that is rendered [pixels]; empty for all of it
+    until_seconds : begin no pass of a rendering once these have passed [s], whatever its samples
+    until_error : begin no pass once the relative noise is at most this, whatever its samples
+    layers : what to find beside radiance: depth, normal, uv, object, material, albedo, direct, indirect,
+        standard_error
     camera : id of a camera in the parent scene; empty: the scene's own
     """
 
@@ -117,8 +144,21 @@ class RecipeOptions(_Checked):
     seed: int = 0
     integrator: Literal["path", "direct"] = "path"
     depth: int = 6
-    filter: Literal["box"] = "box"
+    roulette: int = 0
+    filter: Filter = "box"
+    crop: tuple[int, ...] = ()
+    until_seconds: float | None = None
+    until_error: float | None = None
+    layers: tuple[str, ...] = ()
     camera: str = ""
+
+    def __post_init__(self) -> None:
+        super().__post_init__()
+        if self.crop:
+            left, top, width, height = self.crop
+            if left + width > self.width or top + height > self.height:
+                words = f"crop reaches to {left + width} x {top + height} pixels"
+                raise ValueError(f"{words}, the picture has {self.width} x {self.height}")
 
     @property
     def wavelength_bands(self) -> Bands:
@@ -128,13 +168,14 @@ class RecipeOptions(_Checked):
     @property
     def film(self) -> Film:
         """What the light falls on."""
-        return Film(self.width, self.height, self.wavelength_bands, self.band_kind, self.filter)
+        crop = Crop(*self.crop) if self.crop else None
+        return Film(self.width, self.height, self.wavelength_bands, self.band_kind, self.filter, crop)
 
     @property
     def light_paths(self) -> Integrator:
         """How light is followed; direct light is paths of depth 2."""
         depth = 2 if self.integrator == "direct" else self.depth
-        return Integrator(self.integrator, depth, self.samples, self.seed)
+        return Integrator(self.integrator, depth, self.samples, self.seed, self.roulette)
 
 
 @dataclass(frozen=True)

@@ -9,7 +9,7 @@ from __future__ import annotations
 from collections.abc import Iterator, Mapping
 from typing import Literal, NamedTuple
 
-from ..scene.render_scene import Light, Material, RenderScene, Texture, TextureUse
+from ..scene.render_scene import Film, Integrator, Light, Material, RenderScene, Texture, TextureUse
 
 
 class Fidelity(NamedTuple):
@@ -46,6 +46,7 @@ TABLE: Mapping[str, Mapping[str, Fidelity]] = {
     "texture bitmap": {"mitsuba": EXACT, "tracer": EXACT},
     "camera perspective": {"mitsuba": EXACT, "tracer": EXACT},
     "camera orthographic": {"mitsuba": EXACT, "tracer": EXACT, "sphere": EXACT},
+    "filter box": {"mitsuba": EXACT, "tracer": EXACT, "sphere": EXACT},
     "bands averaged": {"mitsuba": EXACT, "tracer": EXACT, "sphere": EXACT},
     "bands centre": {"mitsuba": EXACT, "tracer": EXACT, "sphere": EXACT},
 }
@@ -74,7 +75,18 @@ def _features(scene: RenderScene) -> Iterator[tuple[str, str]]:
         yield f"light {light.kind}", f"light {light.id} is {light.kind}"
     yield from _environment(scene.environment)
     yield f"camera {scene.camera.projection}", f"camera {scene.camera.id} is {scene.camera.projection}"
-    yield f"bands {scene.film.band_kind}", f"the band values are to be {scene.film.band_kind}"
+    if scene.camera.lens_radius:
+        yield "camera thin lens", f"camera {scene.camera.id} has a lens of some width"
+    yield from _settings(scene.film, scene.integrator)
+
+
+def _settings(film: Film, integrator: Integrator) -> Iterator[tuple[str, str]]:
+    yield f"bands {film.band_kind}", f"the band values are to be {film.band_kind}"
+    yield f"filter {film.filter}", f"the reconstruction filter is {film.filter}"
+    if film.crop:
+        yield "film crop", "only a part of the picture is to be rendered"
+    if integrator.roulette:
+        yield "integrator roulette", f"paths may end at random from depth {integrator.roulette}"
 
 
 def _textures(material: Material, textures: Mapping[str, Texture]) -> Iterator[tuple[str, str]]:

@@ -31,14 +31,27 @@ Extras = Sequence[NativeLine]
 @dataclass(frozen=True)
 class RenderOptions:
     """
-    How to render a native scene, where that does not change what comes out.
+    How to render, where a native scene does not say it.
 
     Parameters
     ----------
     threads : processor threads for one rendering
+    seconds : begin no pass once these have passed [s]; None: until the samples are taken
+    error : begin no pass once the relative noise is at most this; None: until the samples are taken
+    errors : find the standard error of every pixel and band
+    gpu : render on a graphics card, or raise RenderingError where there is none
+
+    Notes
+    -----
+    The relative noise is the root of the mean squared standard error over the mean radiance, both means
+    over all pixels and bands.
     """
 
     threads: int = 1
+    seconds: float | None = None
+    error: float | None = None
+    errors: bool = False
+    gpu: bool = False
 
 
 class Renderer(Protocol):

@@ -11,7 +11,7 @@ import hashlib
 from collections.abc import Mapping
 from dataclasses import dataclass, field
 from functools import cached_property
-from typing import Literal
+from typing import Literal, NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
@@ -144,6 +144,8 @@ class Camera:
     window : left, right, bottom, top of the picture in camera space
         perspective: on the plane one metre ahead [m]; orthographic: across the view [m]
     clip : near and far [m]
+    lens_radius : of a thin lens [m], perspective only; 0: a pinhole
+    focus_distance : from the lens to the plane that is sharp, along the view axis [m]
     """
 
     id: str
@@ -151,6 +153,8 @@ class Camera:
     to_world: FloatArray
     window: tuple[float, float, float, float]
     clip: tuple[float, float] = (1e-3, 1e5)
+    lens_radius: float = 0.0
+    focus_distance: float = 1.0
 
 
 @dataclass(frozen=True, eq=False)
@@ -164,12 +168,26 @@ class Integrator:
     depth : longest path in Mitsuba's counting: 1 emitters only, 2 direct light, 3 one bounce more
     samples : paths per pixel
     seed : of the random numbers
+    roulette : depth from which paths may end at random, whatever their spectra; 0: they never do
     """
 
     kind: Literal["path", "direct"] = "path"
     depth: int = 6
     samples: int = 64
     seed: int = 0
+    roulette: int = 0
+
+
+Filter = Literal["box", "tent", "gaussian", "mitchell", "catmullrom", "lanczos"]
+
+
+class Crop(NamedTuple):
+    """The part of a picture that is rendered, from its upper left corner [pixels]."""
+
+    left: int
+    top: int
+    width: int
+    height: int
 
 
 @dataclass(frozen=True, eq=False)
@@ -179,17 +197,24 @@ class Film:
 
     Parameters
     ----------
-    width, height : size [pixels]
+    width, height : size of the whole picture [pixels]
     bands : wavelength bands
     band_kind : what a band's number stands for
-    filter : reconstruction filter
+    filter : reconstruction filter, with Mitsuba's default parameters
+    crop : the part that is rendered; None for all of it
     """
 
     width: int = 320
     height: int = 240
     bands: Bands = DEFAULT_BANDS
     band_kind: BandKind = "averaged"
-    filter: Literal["box"] = "box"
+    filter: Filter = "box"
+    crop: Crop | None = None
+
+    @property
+    def part(self) -> Crop:
+        """What is rendered, the whole picture perhaps."""
+        return self.crop or Crop(0, 0, self.width, self.height)
 
 
 @dataclass(frozen=True, eq=False)
@@ -199,7 +224,8 @@ class RenderScene:
 
     Parameters
     ----------
-    environment : radiance [W sr-1 m-2 nm-1] that comes from every direction where nothing is, or None
+    environment : radiance [W sr-1 m-2 nm-1] that comes from every direction where nothing is, or None;
+        its ``intensity`` times the picture ``filename``, where that is not empty
     """
 
     camera: Camera

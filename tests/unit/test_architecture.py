@@ -21,6 +21,7 @@ FLOORS = {
     "rtb_addon/recipe": 4,
     "rtb_addon/colorimetry.py": 3,
     "rtb_addon/spectral_image.py": 3,
+    "rtb_addon/layers.py": 3,
     "rtb_addon/swatches.py": 3,
     "rtb_addon/mappings": 3,
     "rtb_addon/spectra": 2,

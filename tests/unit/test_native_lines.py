@@ -18,7 +18,7 @@ def changed(integrator, *texts):
 
 
 def test_paths_in_a_recipe_of_direct_light_have_no_end():
-    assert changed(DIRECT, "integrator:integrator:path") == ("path", ENDLESS, 64, 0)
+    assert changed(DIRECT, "integrator:integrator:path") == ("path", ENDLESS, 64, 0, 0)
     assert changed(DIRECT, "integrator:integrator:path", "integrator:maxDepth.integer = 7")[1] == 7
     assert changed(PATH, "integrator:maxDepth.integer = -1")[1] == ENDLESS
 

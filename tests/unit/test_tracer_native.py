@@ -111,7 +111,13 @@ def test_mitsuba_lines_change_the_integrator(full, tmp_path):
     ]
     lines = [NativeLine(text, "mappings.txt", number) for number, text in enumerate(texts)]
     read = native.read(native.translate(full, lines, tmp_path, "dusk"))
-    assert asdict(read.integrator) == {"kind": "direct", "depth": 9, "samples": 1024, "seed": 3}
+    assert asdict(read.integrator) == {
+        "kind": "direct",
+        "depth": 9,
+        "samples": 1024,
+        "seed": 3,
+        "roulette": 0,
+    }
 
 
 @pytest.mark.parametrize(
@@ -160,7 +166,7 @@ def test_what_the_tracer_lacks_is_said_in_one_sentence(full, tmp_path):
 
 def test_a_scene_of_plain_things_lacks_nothing(full):
     assert fidelity.unsupported(full, "tracer") == []
-    assert len(fidelity.unsupported(full, "somebody")) == 8
+    assert len(fidelity.unsupported(full, "somebody")) == 9
 
 
 @pytest.mark.parametrize(("name", "value"), [("radius", -1.0), ("cone", 200.0), ("blend", float("nan"))])
