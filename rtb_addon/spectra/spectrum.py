@@ -3,26 +3,15 @@
 from __future__ import annotations
 
 from dataclasses import dataclass, replace
-from enum import StrEnum
 
 import numpy as np
 from numpy.typing import ArrayLike
 
+from ..units import Unit
 from .bands import BandKind, Bands, FloatArray
 
 # Spectra go on with their end values over this range [nm], and watts are spread over it.
 FULL_RANGE = (360.0, 830.0)
-
-
-class Unit(StrEnum):
-    """What the numbers of a spectrum are."""
-
-    RATIO = "1"
-    SHAPE = "relative"
-    POWER = "W nm-1"
-    INTENSITY = "W sr-1 nm-1"
-    IRRADIANCE = "W m-2 nm-1"
-    RADIANCE = "W sr-1 m-2 nm-1"
 
 
 @dataclass(frozen=True, eq=False)
