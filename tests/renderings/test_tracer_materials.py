@@ -10,7 +10,7 @@ from rtb_addon.errors import RecipeError
 from rtb_addon.renderers.tracer import coat
 from rtb_addon.renderers.tracer.directions import normalised
 from rtb_addon.scene.render_scene import Camera, Material, Shape
-from rtb_addon.spectra import Spectrum, Unit
+from rtb_addon.spectra import Spectrum
 from tests.renderings.scattering import (
     albedo,
     assert_samples_as_it_says,
@@ -22,27 +22,31 @@ from tests.renderings.scattering import (
 )
 from tests.renderings.tracer_scenes import (
     BANDS,
+    BLACK,
     GREY,
+    IOR,
+    RADIANCE,
     SHAPE_OF_LIGHT,
     SQUARE,
+    TINTS,
+    WHITE,
     assert_within_noise,
     ball,
     cube,
     facing,
+    glass,
     lamp,
     looking_down,
     matrix,
     matte,
     per_band,
     picture,
+    reflected_by,
     scene,
     sky,
     ward,
 )
 
-WHITE = Spectrum.constant(1.0)
-BLACK = Spectrum.constant(0.0)
-RADIANCE = per_band(SHAPE_OF_LIGHT, Unit.RADIANCE)
 VARIANTS = ("ward", "ward-duer", "balanced")
 
 
@@ -223,15 +227,6 @@ def metal(eta, k, roughness=0.0, id="metal"):
     return Material(id, "metal", said)
 
 
-def reflected_by(eta, k, degrees):
-    """Return Fresnel's reflectance from complex amplitudes, mean of both polarisations."""
-    index, cosine = eta + 1j * k, np.cos(np.radians(degrees))
-    behind = np.sqrt(1 - (1 - cosine**2) / index**2 + 0j)
-    across = (cosine - index * behind) / (cosine + index * behind)
-    along = (index * cosine - behind) / (index * cosine + behind)
-    return (abs(across) ** 2 + abs(along) ** 2) / 2
-
-
 @pytest.mark.parametrize("name", INDICES)
 @pytest.mark.parametrize("degrees", [0, 30, 60, 85])
 def test_metals_reflect_as_fresnel_says(name, degrees):
@@ -272,8 +267,6 @@ def test_a_rough_metal_is_a_torrance_and_sparrow_surface():
 # All that sample
 
 
-IOR = {"intIOR": 1.5, "extIOR": 1.0}
-TINTS = {"specularReflectance": WHITE, "specularTransmittance": WHITE}
 SAMPLED = {
     "rough metal": metal(0.27, 2.78, 0.3),
     "plastic": Material("m", "plastic", {**IOR, "diffuseReflectance": GREY}),
@@ -337,90 +330,6 @@ def test_white_plastic_returns_no_more_light_than_came(roughness, degrees):
     if roughness == 0:
         share += reflected_by(1.5, 0, degrees)
     assert 0.6 < share < 1.005
-
-
-# Glass
-
-
-def glass(model="glass", roughness=None, **tints):
-    rough = {} if roughness is None else {"roughness": roughness}
-    return Material("glass", model, {**IOR, **TINTS, **tints, **rough})
-
-
-@pytest.mark.parametrize("degrees", [0, 20, 56.31, 80])
-@pytest.mark.parametrize("side", [1, -1])
-def test_glass_bends_light_as_snell_says(degrees, side):
-    eta = 1.5**side
-    u = (np.arange(4000) + 0.5) / 4000
-    onward = model_of(glass()).scattered(met(direction(degrees), 4000, side), u, u)
-    back = onward.directions[2] > 0
-    expected = reflected_by(eta, 0, degrees)
-    assert back.mean() == pytest.approx(expected, abs=1e-3)
-    if degrees == 56.31 and side > 0:
-        # Brewster's angle: only the light across the plane is reflected.
-        assert expected == pytest.approx(((1.5**2 - 1) / (1.5**2 + 1)) ** 2 / 2, rel=1e-4)
-    sine = np.sin(np.radians(degrees)) / eta
-    if sine < 1:
-        np.testing.assert_allclose(onward.directions[0, ~back], -sine, rtol=1e-9)
-        np.testing.assert_allclose(onward.weight[~back], 1 / eta**2, rtol=1e-6)
-    else:
-        assert back.all()
-
-
-def test_a_thin_pane_counts_what_goes_back_and_forth():
-    u = (np.arange(4000) + 0.5) / 4000
-    onward = model_of(glass("thinglass")).scattered(met(direction(40), 4000), u, u)
-    r = reflected_by(1.5, 0, 40)
-    assert (onward.directions[2] > 0).mean() == pytest.approx(2 * r / (1 + r), abs=1e-3)
-    np.testing.assert_allclose(
-        onward.directions[:, onward.directions[2] < 0][:, :1], -direction(40), atol=1e-12
-    )
-
-
-@pytest.mark.parametrize("model", ["glass", "thinglass"])
-def test_clear_glass_vanishes_before_an_even_sky(tmp_path, model):
-    body = Shape("body", ball(1.0, 16, normals=False), matrix(), "glass")
-    camera = Camera("c", "perspective", facing((4, 3, 5), (0, 0, 0)), (-0.1, 0.1, -0.1, 0.1))
-    lit = scene([body], [], [glass(model)], camera, depth=40, environment=sky(2.0), samples=16, size=(8, 8))
-    np.testing.assert_allclose(picture(lit, tmp_path), 2.0, rtol=1e-3)
-
-
-def test_rough_glass_loses_a_little_light_and_makes_none(tmp_path):
-    body = Shape("body", ball(1.0, 16), matrix(), "glass")
-    camera = Camera("c", "perspective", facing((4, 3, 5), (0, 0, 0)), (-0.1, 0.1, -0.1, 0.1))
-    rough = glass("roughglass", 0.1)
-    lit = scene([body], [], [rough], camera, depth=40, environment=sky(2.0), samples=256, size=(8, 8))
-    assert 1.85 < picture(lit, tmp_path).mean() < 2.005
-
-
-def test_rough_glass_of_no_roughness_is_glass(tmp_path):
-    body = Shape("body", ball(1.0, 8), matrix(), "glass")
-    camera = Camera("c", "perspective", facing((4, 3, 5), (0, 0, 0)), (-0.3, 0.3, -0.3, 0.3))
-    floor = Shape("floor", SQUARE, matrix((0, 0, -1), (5, 0, 0), (0, 5, 0)), "grey")
-    lights = [lamp("point", matrix((0, 0, 3)), radius=1.0)]
-    smooth, rough = (
-        picture(scene([body, floor], lights, [one, matte("grey")], camera, 6, 4, (8, 8)), tmp_path)
-        for one in (glass(), glass("roughglass", 0.0))
-    )
-    np.testing.assert_array_equal(smooth, rough)
-
-
-def test_a_tint_colours_each_passage(tmp_path):
-    """Two passages, and 0.96 goes through each; what goes back and forth is left out by the depth."""
-    tint = per_band([0.9, 0.5, 0.2, 1.0])
-    pane = [Shape(f"side {z}", SQUARE, matrix((0, 0, z), z=(0, 0, z)), "glass") for z in (1, -1)]
-    glow = Shape("glow", SQUARE, matrix((0, 0, -3), (9, 0, 0), (0, 9, 0)), "black", RADIANCE)
-    turned = [
-        Shape(one.id, one.mesh, one.to_world @ np.diag([1, one.to_world[2, 2], 1, 1]), "glass")
-        for one in pane
-    ]
-    materials = [glass(specularTransmittance=tint), matte("black", BLACK)]
-    seen = picture(scene([*turned, glow], [], materials, looking_down(), depth=3, samples=4096), tmp_path)[
-        0, 0
-    ]
-    expected = (0.96 * tint.in_bands(BANDS)) ** 2 * SHAPE_OF_LIGHT
-    # Of 4096 paths 0.92 get through: the error is a sixtieth of a root of 0.08 / 0.92.
-    np.testing.assert_allclose(seen, expected, rtol=4 * np.sqrt(0.08 / 0.92 / 4096))
 
 
 # Blends and masks

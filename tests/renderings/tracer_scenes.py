@@ -26,6 +26,9 @@ def per_band(values, unit=Unit.RATIO):
     return Spectrum.of([BANDS.edges[0], *steps, BANDS.edges[-1]], np.repeat(values, 2), unit)
 
 
+RADIANCE = per_band(SHAPE_OF_LIGHT, Unit.RADIANCE)
+
+
 def matte(id, reflectance=GREY):
     return Material(id, "matte", {"diffuseReflectance": reflectance})
 
@@ -83,6 +86,26 @@ def ward(id, diffuse=GREY, specular=0.3, alpha_u=0.2, alpha_v=None, variant="war
     specular = Spectrum.constant(specular) if isinstance(specular, float) else specular
     said = {"diffuseReflectance": diffuse, "specularReflectance": specular}
     return Material(id, "anisoward", {**said, "alphaU": alpha_u, "alphaV": alpha_v, "variant": variant})
+
+
+WHITE = Spectrum.constant(1.0)
+BLACK = Spectrum.constant(0.0)
+IOR = {"intIOR": 1.5, "extIOR": 1.0}
+TINTS = {"specularReflectance": WHITE, "specularTransmittance": WHITE}
+
+
+def glass(model="glass", roughness=None, **tints):
+    rough = {} if roughness is None else {"roughness": roughness}
+    return Material("glass", model, {**IOR, **TINTS, **tints, **rough})
+
+
+def reflected_by(eta, k, degrees):
+    """Return Fresnel's reflectance from complex amplitudes, mean of both polarisations."""
+    index, cosine = eta + 1j * k, np.cos(np.radians(degrees))
+    behind = np.sqrt(1 - (1 - cosine**2) / index**2 + 0j)
+    across = (cosine - index * behind) / (cosine + index * behind)
+    along = (index * cosine - behind) / (index * cosine + behind)
+    return (abs(across) ** 2 + abs(along) ** 2) / 2
 
 
 def lamp(kind, to_world, intensity=SHAPE_OF_LIGHT, **parameters):

@@ -17,7 +17,7 @@ from ..interface import Extras, Installed, RenderOptions, Report
 from . import integrate, native
 
 # Goes up when a picture of the same native scene changes.
-VERSION = "1.1"
+VERSION = "1.2"
 
 
 class Tracer:

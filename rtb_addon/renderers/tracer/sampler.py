@@ -44,7 +44,11 @@ class Sampler:
     def __init__(self, pixels: int, samples: int, pairs: int, seed: int, tile: int) -> None:
         random = np.random.Generator(np.random.Philox(np.random.SeedSequence([seed % 2**64, tile])))
         points = sequence(samples)
-        self._points = [points[:, random.permutation(samples)] for _ in range(pairs)]
+        # Below the digits of the sequence each sample has digits of its own, or a pixel's samples would share
+        # them, and with them whatever the last digits decide.
+        free = 32 - max(samples - 1, 1).bit_length()
+        below = random.integers(0, 1 << free, (pairs, 2, samples), np.uint32)
+        self._points = [points[:, random.permutation(samples)] ^ below[pair] for pair in range(pairs)]
         self._scramble = random.integers(0, 1 << 32, (pairs, 2, pixels), np.uint32)
 
     def pair(self, use: int, pixel: NDArray, sample: NDArray) -> tuple[FloatArray, FloatArray]:
