@@ -2,7 +2,7 @@
 Measured and standard spectra by name, out of the small tables in data/.
 
 The tables come from colour-science (packaging/make_library.py writes them), which Blender's own
-process must not import.
+process must not import, and from the refractiveindex.info database (packaging/make_indices.py).
 """
 
 from __future__ import annotations
@@ -20,6 +20,8 @@ from .spectrum import Spectrum, Unit
 
 _DATA = Path(__file__).parents[1] / "data"
 _TABLES = {"illuminants.csv": Unit.SHAPE, "color_checkers.csv": Unit.RATIO}
+_INDICES = "indices.csv"
+_OLD_METAL = re.compile(r"(\w+)\.(eta|k)\.spd")
 _OLD_PATCH = re.compile(r"mccbabel-(\d+)\.spd")
 _ROWS, _COLUMNS = 4, 6
 
@@ -27,8 +29,17 @@ CHART = "BabelColor Average"
 
 
 def names() -> list[str]:
-    """Return every spectrum's name: the illuminants, then each checker's patches in the chart's order."""
+    """
+    Return every spectrum's name: illuminants, each checker's patches in the chart's order, indices.
+
+    Metals have two, ``Metals/Cu copper eta`` and ``Metals/Cu copper k``; glasses one, ``Glasses/N-BK7``.
+    """
     return list(_all())
+
+
+def metals() -> list[str]:
+    """Return the names of the metals, to which `` eta`` and `` k`` are added: ``Metals/Cu copper``."""
+    return [name.removesuffix(" eta") for name in _all() if name.endswith(" eta")]
 
 
 def find(name: str) -> Spectrum:
@@ -36,7 +47,7 @@ def find(name: str) -> Spectrum:
     Return a spectrum by its name, in any case of letters.
 
     Illuminants (``D65``) are relative, as the CIE tabulates them; patches (``BabelColor Average/blue``) are
-    reflectances.
+    reflectances; of metals and glasses there are indices of refraction, and of metals those of extinction.
     """
     known = {each.lower(): each for each in _all()}
     if (key := name.strip().lower()) in known:
@@ -58,6 +69,8 @@ def served(filename: str) -> Spectrum | None:
         return find("D65")
     if base == "dimflat.spd":
         return Spectrum.of([380, 780], [1, 1], Unit.SHAPE)
+    if metal := _OLD_METAL.fullmatch(base):
+        return _metal(*metal.groups())
     number = int(old.group(1)) if (old := _OLD_PATCH.fullmatch(base)) else 0
     if not 1 <= number <= _ROWS * _COLUMNS:
         return None
@@ -67,7 +80,13 @@ def served(filename: str) -> Spectrum | None:
 
 @cache
 def _all() -> Mapping[str, Spectrum]:
-    return {name: spectrum for table, unit in _TABLES.items() for name, spectrum in _read(table, unit)}
+    regular = {name: spectrum for table, unit in _TABLES.items() for name, spectrum in _read(table, unit)}
+    return {**regular, **dict(_read_indices())}
+
+
+def _metal(symbol: str, part: str) -> Spectrum | None:
+    known = (name for name in _all() if re.fullmatch(rf"Metals/{symbol} \w+ {part}", name, re.IGNORECASE))
+    return next((_all()[name] for name in known), None)
 
 
 def _read(table: str, unit: Unit):
@@ -77,3 +96,12 @@ def _read(table: str, unit: Unit):
             name, start, step, *values = line.split(",")
             wavelengths = float(start) + float(step) * np.arange(len(values))
             yield name, Spectrum(wavelengths, np.array(values, float), unit)
+
+
+def _read_indices():
+    """Yield the indices, as they were measured; each line is a name and pairs of wavelength [nm]:value."""
+    for line in (_DATA / _INDICES).read_text(encoding="utf-8").splitlines():
+        if not line.startswith("#"):
+            name, *pairs = line.split(",")
+            samples = np.array([pair.split(":") for pair in pairs], float).T
+            yield name, Spectrum(samples[0], samples[1], Unit.RATIO)

@@ -593,7 +593,7 @@ MATTE = "Paint-material:material:matte"
             3,
             "alphaU is 'few', want one number",
         ),
-        (["Paint-material:material:metal"], 2, "there is no spectrum file Cu.eta.spd"),
+        (["Paint-material:material:metal", "Paint-material:k = Xx.k.spd"], 3, "no spectrum file Xx.k.spd"),
         (["Paint-material:material:bumpmap"], 2, "Paint-material must say its materialID"),
         (["Lamp-light:light:pont"], 2, "no light is called pont, want one of point"),
         (
@@ -658,6 +658,13 @@ def test_a_metal_is_copper_unless_it_says_another(tmp_path):
     metal = scene.materials["Paint-material"]
     assert metal.parameters["eta"].at(550) == pytest.approx(0.25)
     assert metal.parameters["roughness"] == 0.4
+
+
+def test_metals_that_the_recipe_has_no_files_of_are_the_librarys():
+    found = resolved(room(), generic("Paint-material:material:metal", "Paint-material:k = Ag.k.spd"))
+    metal = found.scene.materials["Paint-material"].parameters
+    assert (metal["eta"].at(582.1), metal["k"].at(582.1)) == (0.7, 3.858)  # Johnson and Christy 1972
+    assert any("Cu.eta.spd is not in the recipe's folder" in each for each in found.warnings)
 
 
 @pytest.mark.parametrize("symbol", ["Paint", "Paint-material"])

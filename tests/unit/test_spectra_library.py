@@ -41,7 +41,9 @@ def test_every_patch_is_the_one_of_colour_science_in_the_charts_order(checker):
 
 def test_the_library_holds_nothing_twice_and_finds_all_it_names():
     names = library.names()
-    assert len(names) == len({name.lower() for name in names}) == len(colour.SDS_ILLUMINANTS) + 24 * 3
+    assert len(names) == len({name.lower() for name in names})
+    indices = [name for name in names if name.startswith(("Metals/", "Glasses/"))]
+    assert len(names) - len(indices) == len(colour.SDS_ILLUMINANTS) + 24 * 3
     assert all(library.find(name.upper()) is library.find(name) for name in names)
 
 
@@ -69,6 +71,20 @@ def test_old_patches_are_nearly_the_old_measurement():
     old = {1: 0.1855, 2: 0.6443, 5: 0.6721, 11: 0.7339, 15: 0.7920, 18: 0.3761, 20: 0.0814, 22: 0.6709}
     for number, reflectance in old.items():
         assert library.served(f"mccBabel-{number}.spd").at(700) == pytest.approx(reflectance, abs=0.03)
+
+
+def test_metals_and_glasses_have_their_measured_indices():
+    for metal in library.metals():
+        eta, k = (library.find(f"{metal} {part}") for part in ("eta", "k"))
+        assert eta.wavelengths[0] <= 390
+        assert eta.wavelengths[-1] >= 780
+        assert eta.wavelengths.tolist() == k.wavelengths.tolist()
+    # The index of Schott's data sheet at the helium line, and Abbe's number from its neighbours.
+    d, f, c = library.find("Glasses/N-BK7").at([587.5618, 486.1327, 656.2725])
+    assert d == pytest.approx(1.51680, abs=2e-5)
+    assert (d - 1) / (f - c) == pytest.approx(64.17, rel=0.01)  # read between samples 10 nm apart
+    assert library.served("al.ETA.spd") is library.find("Metals/Al aluminium eta")
+    assert library.served("unobtainium.eta.spd") is None
 
 
 def test_other_old_files_are_served_under_their_names():
