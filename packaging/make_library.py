@@ -9,6 +9,7 @@ with warnings.catch_warnings():
     from colour.colorimetry import SDS_BASIS_FUNCTIONS_CIE_ILLUMINANT_D_SERIES as DAYLIGHT
 
 OBSERVER = colour.MSDS_CMFS["CIE 1931 2 Degree Standard Observer"]
+CONES = colour.MSDS_CMFS["Stockman & Sharpe 2 Degree Cone Fundamentals"]
 DATA = Path(__file__).resolve().parents[1] / "rtb_addon" / "data"
 CHECKERS = ("BabelColor Average", "ColorChecker N Ohta", "ISO 17321-1")
 ORIGIN = f"# from colour-science {colour.__version__}; see SOURCES.md"
@@ -27,6 +28,12 @@ def write(name: str, heading: str, rows: list[str]) -> None:
     (DATA / name).write_text("\n".join([ORIGIN, f"# {heading}", *rows]) + "\n", encoding="utf-8")
 
 
+def write_functions(name: str, functions, heading: str) -> None:
+    """Write functions of wavelength side by side, at every nanometre."""
+    lines = zip(functions.wavelengths, *functions.values.T, strict=True)
+    write(name, f"wavelength [nm], {heading}", [",".join(map(number, line)) for line in lines])
+
+
 def main() -> None:
     each = "name, first wavelength [nm], step [nm], values"
     illuminants = [row(name, spectrum) for name, spectrum in colour.SDS_ILLUMINANTS.items()]
@@ -40,11 +47,12 @@ def main() -> None:
     columns = [DAYLIGHT["S0"].wavelengths, *(DAYLIGHT[name].values for name in ("S0", "S1", "S2"))]
     basis = [",".join(map(number, line)) for line in zip(*columns, strict=True)]
     write("daylight_basis.csv", "wavelength [nm], S0, S1, S2 [relative]", basis)
-    observer = OBSERVER.copy().align(colour.SpectralShape(360, 830, 5))
-    matching = [
-        ",".join(map(number, line)) for line in zip(observer.wavelengths, *observer.values.T, strict=True)
-    ]
-    write("cie_1931.csv", "wavelength [nm], x, y, z of the CIE 1931 2 degree observer", matching)
+    write_functions("cie_1931.csv", OBSERVER, "x, y, z of the CIE 1931 2 degree observer")
+    write_functions(
+        "cones.csv",
+        CONES,
+        "l, m, s of CIE 170-1:2006 (Stockman and Sharpe), 2 degrees, each 1 at its highest",
+    )
 
 
 if __name__ == "__main__":

@@ -14,10 +14,11 @@ import sys
 import threading
 import time
 from collections import deque
+from collections.abc import Callable
 from contextlib import suppress
 from dataclasses import dataclass
 from pathlib import Path
-from typing import Literal
+from typing import Any, Literal
 
 Kind = Literal["started", "progress", "done", "cached", "failed", "cancelled", "finished"]
 
@@ -145,12 +146,19 @@ class EventStream:
     ----------
     process : from start_child
     inbox : where (stream, event) goes, with None for the end; its own unless several streams share one
+    parse : makes an event of a line
     """
 
-    def __init__(self, process: subprocess.Popen, inbox: queue.SimpleQueue | None = None) -> None:
+    def __init__(
+        self,
+        process: subprocess.Popen,
+        inbox: queue.SimpleQueue | None = None,
+        parse: Callable[[str], Any] = Event.from_json,
+    ) -> None:
         self.process = process
         self.inbox = inbox or queue.SimpleQueue()
         self.ended = False
+        self._parse = parse
         self._words: deque[str] = deque(maxlen=20)
         self._threads = [
             threading.Thread(target=read, daemon=True) for read in (self._read_events, self._read_words)
@@ -158,7 +166,7 @@ class EventStream:
         for thread in self._threads:
             thread.start()
 
-    def ready(self) -> list[Event]:
+    def ready(self) -> list[Any]:
         """Return the events that came since the last call; sets ``ended`` after the last one."""
         events = []
         with suppress(queue.Empty):
@@ -178,7 +186,7 @@ class EventStream:
         with self.process.stdout as lines:
             for line in lines:
                 with suppress(ValueError, TypeError, AttributeError):  # not every line need be ours
-                    self.inbox.put((self, Event.from_json(line)))
+                    self.inbox.put((self, self._parse(line)))
         self.inbox.put((self, None))
 
     def _read_words(self) -> None:

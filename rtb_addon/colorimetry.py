@@ -1,19 +1,12 @@
-"""
-Spectra to XYZ to sRGB, as RenderToolbox3 computes it.
-
-The matching functions come from colour-science, which takes half a second to import: it is loaded when
-they are first asked for, and never in Blender's own process.
-"""
+"""Spectra to XYZ to sRGB, as RenderToolbox3 computes it."""
 
 from __future__ import annotations
-
-import warnings
-from functools import cache
 
 import numpy as np
 
 from .errors import RenderingError
-from .spectra import Bands, FloatArray
+from .observers import matching_functions
+from .spectra import FloatArray
 from .spectral_image import SpectralImage
 
 # Lumens per watt at 555 nm: Y of a radiance is then its luminance.
@@ -36,13 +29,6 @@ def xyz(image: SpectralImage) -> FloatArray:
         raise RenderingError("the image holds radiances that are no finite numbers")
     per_band = EFFICACY * matching_functions(image.bands) * image.bands.widths[:, None]
     return image.radiance @ per_band
-
-
-def matching_functions(bands: Bands) -> FloatArray:
-    """Return CIE 1931 2 degree functions at the bands' centres, (bands, 3); 0 outside 360-830 nm."""
-    wavelengths, values = _cie_1931()
-    columns = [np.interp(bands.centres, wavelengths, column, left=0, right=0) for column in values.T]
-    return np.stack(columns, axis=1)
 
 
 def linear_srgb(tristimulus: FloatArray) -> FloatArray:
@@ -95,13 +81,3 @@ def encoded(linear: FloatArray) -> np.ndarray:
     clipped = np.clip(linear, 0, 1)
     curve = np.where(clipped < _STRAIGHT_BELOW, 12.92 * clipped, 1.055 * clipped ** (1 / 2.4) - 0.055)
     return np.floor(255 * curve + 0.5).astype(np.uint8)
-
-
-@cache
-def _cie_1931() -> tuple[FloatArray, FloatArray]:
-    """Return wavelengths [nm] and the three matching functions, (wavelengths, 3), at every nanometre."""
-    with warnings.catch_warnings():
-        warnings.simplefilter("ignore")  # it tells which of its own optional packages are missing
-        import colour
-    functions = colour.MSDS_CMFS["CIE 1931 2 Degree Standard Observer"]
-    return functions.wavelengths, functions.values

@@ -52,16 +52,16 @@ def grid(count: int, options: MontageOptions) -> tuple[int, int]:
 
 
 def arranged(cells: Sequence[FloatArray | None], options: MontageOptions) -> FloatArray:
-    """Return (height, width, 3) pictures side by side in the grid; cells without one are black."""
+    """Return (height, width, channels) pictures side by side in the grid; cells without one are 0."""
     first = next((cell for cell in cells if cell is not None), None)
     if first is None:
         raise RecipeError("no renderings to show, render some conditions first")
-    height, width, _ = first.shape
+    height, width, channels = first.shape
     rows, columns = grid(len(cells), options)
-    picture = np.zeros((rows * height, columns * width, 3), first.dtype)
+    picture = np.zeros((rows * height, columns * width, channels), first.dtype)
     for number, cell in enumerate(cells):
         if cell is not None:
-            row, column = _place(number, rows, columns, options.fill)
+            row, column = place(number, rows, columns, options.fill)
             target = picture[row * height : (row + 1) * height, column * width : (column + 1) * width]
             target[:] = _cropped(cell, height, width, number)
     return picture
@@ -83,7 +83,8 @@ def tristimulus(image: SpectralImage | Path | FloatArray) -> FloatArray:
     return xyz(cube).astype(np.float32)
 
 
-def _place(number: int, rows: int, columns: int, fill: str) -> tuple[int, int]:
+def place(number: int, rows: int, columns: int, fill: str) -> tuple[int, int]:
+    """Return the row and the column of a cell."""
     if fill == "rows":
         return divmod(number, columns)
     column, row = divmod(number, rows)

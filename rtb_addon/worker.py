@@ -40,6 +40,7 @@ class Task:
     condition : its name
     overrides : options that win over the recipe's
     threads : processor threads to use
+    gpu : whether to render on a graphics card
     fresh : whether to render even what is done
     remodeler : code that changes the scene, which somebody trusts: source, file and line of each part
     """
@@ -48,6 +49,7 @@ class Task:
     condition: str
     overrides: dict[str, Any] = field(default_factory=dict)
     threads: int = 1
+    gpu: bool = False
     fresh: bool = False
     remodeler: tuple[tuple[str, str, int], ...] = ()
 
@@ -98,7 +100,7 @@ class Desk:
 
 def main() -> None:
     """Render what the batch asks for until it asks no more."""
-    desk = Desk(_own_output())
+    desk = Desk(own_output())
     recipes: dict[tuple[str, str], Recipe] = {}
     while (task := desk.next_task()) is not None:
         desk.tell(replace(_outcome(task, recipes, desk), condition=task.condition))
@@ -111,7 +113,8 @@ def _outcome(task: Task, recipes: dict[tuple[str, str], Recipe], desk: Desk) -> 
 
     try:
         recipe = _recipe_of(task, recipes)
-        done = render_condition(recipe, task.condition, desk.report, threads=task.threads, fresh=task.fresh)
+        how = {"threads": task.threads, "gpu": task.gpu, "fresh": task.fresh}
+        done = render_condition(recipe, task.condition, desk.report, **how)
     except Cancelled:
         return Event("cancelled")
     except RecipeError as error:
@@ -143,7 +146,7 @@ def _recipe_of(task: Task, recipes: dict[tuple[str, str], Recipe]) -> Recipe:
     return recipes[which]
 
 
-def _own_output() -> TextIO:
+def own_output() -> TextIO:
     """Keep standard output for events alone; what libraries print goes to standard error."""
     own = os.fdopen(os.dup(sys.stdout.fileno()), "w", encoding="utf-8")
     os.dup2(sys.stderr.fileno(), sys.stdout.fileno())

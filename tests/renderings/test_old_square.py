@@ -12,7 +12,7 @@ import runpy
 import numpy as np
 import pytest
 
-from rtb_addon.colorimetry import matching_functions
+from rtb_addon.observers import matching_functions
 from rtb_addon.recipe import Recipe
 from rtb_addon.spectra import DEFAULT_BANDS
 from rtb_addon.spectra.files import read_spd

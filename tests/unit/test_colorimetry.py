@@ -13,12 +13,12 @@ from rtb_addon.colorimetry import (
     encoded,
     linear_srgb,
     luminance_limited,
-    matching_functions,
     srgb8,
     tone_mapped,
     xyz,
 )
 from rtb_addon.errors import RenderingError
+from rtb_addon.observers import matching_functions
 from rtb_addon.spectra import DEFAULT_BANDS, Bands, library
 from rtb_addon.spectral_image import SpectralImage
 
@@ -169,7 +169,7 @@ def test_numbers_that_are_none_are_not_shown(wrong):
         xyz(pixel([wrong] + [1] * 30))
 
 
-def test_colour_science_is_loaded_only_when_colours_are_computed():
+def test_colours_need_no_colour_science():
     heavy = "{'colour', 'scipy', 'PIL', 'OpenEXR'}"
     program = f"import sys, rtb_addon.montage; print(sorted({heavy} & set(sys.modules)))"
     done = subprocess.run(

@@ -3,13 +3,12 @@
 import numpy as np
 import pytest
 
-from rtb_addon.colorimetry import matching_functions as of_colour_science
 from rtb_addon.curves import RANGE, curve_picture, nice_above
 from rtb_addon.digits import HEIGHT, WIDTH, letters
 from rtb_addon.spectra import Bands, Spectrum
 from rtb_addon.spectra.library import find
 from rtb_addon.spectra.sources import blackbody
-from rtb_addon.swatches import light_colour, matching_functions, surface_colour
+from rtb_addon.swatches import light_colour, surface_colour
 
 INK = (200, 200, 200)
 
@@ -75,11 +74,6 @@ def test_digits_differ_and_grow_by_whole_pixels():
     assert len(shapes) == 14
     assert letters("400", 3).shape == (3 * HEIGHT, 9 * WIDTH)
     assert letters("400", 3).sum() == 9 * letters("400").sum()
-
-
-def test_the_table_of_matching_functions_is_that_of_colour_science():
-    places, functions = matching_functions()
-    assert functions == pytest.approx(of_colour_science(Bands.around(places)), abs=1e-12)
 
 
 def test_white_in_daylight_is_white_and_black_is_black():

@@ -3,7 +3,8 @@
 import numpy as np
 import pytest
 
-from rtb_addon.colorimetry import linear_srgb, matching_functions
+from rtb_addon.colorimetry import linear_srgb
+from rtb_addon.observers import matching_functions
 from rtb_addon.spectra import Bands, Unit
 from rtb_addon.spectra.library import find
 from rtb_addon.spectra.promotion import promoted
