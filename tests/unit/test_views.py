@@ -133,7 +133,8 @@ def test_every_pixel_of_a_montage_is_found_again(fill, by):
     for name in NAMES:
         left, top = tiles.corner(name)
         for column, row in ((0, 0), (6 // by - 1, 4 // by - 1)):
-            assert tiles.at(left + column + 0.4, top + row + 0.4)[0] == name
+            place = left + column + 0.25, top + row + 0.25
+            assert tiles.at(*place) == (name, int((column + 0.25) * by), int((row + 0.25) * by))
         assert tiles.at(left, top) == (name, 0, 0)
     width, height = tiles.size
     assert tiles.at(width + 1, 0) is tiles.at(0, height + 1) is tiles.at(-0.5, 0) is None
