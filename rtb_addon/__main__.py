@@ -58,6 +58,7 @@ def _add_render(render: argparse.ArgumentParser) -> None:
     render.add_argument("--size", type=_size, metavar="WxH", help="size of the images in pixels")
     render.add_argument("--jobs", type=_positive, metavar="N", help="workers at once, else one a core")
     render.add_argument("--threads", type=_positive, metavar="N", default=1, help="threads of each worker")
+    render.add_argument("--gpu", action="store_true", help="render on a graphics card")
     render.add_argument(
         "--scheduler", metavar="ADDRESS", help="a Dask cluster that renders, like tcp://host:8786"
     )

@@ -38,6 +38,7 @@ def render(said: Namespace) -> int:
         size=said.size,
         jobs=said.jobs,
         threads=said.threads,
+        gpu=said.gpu,
         fresh=said.fresh,
         trust=said.trust,
         scheduler=said.scheduler,

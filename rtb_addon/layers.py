@@ -9,7 +9,7 @@ from __future__ import annotations
 
 import json
 from collections.abc import Iterator, Mapping, Sequence
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from pathlib import Path
 
 import numpy as np
@@ -58,6 +58,14 @@ class Layers:
     planes: Mapping[str, NDArray]
     bands: Bands | None = None
     names: Mapping[str, Sequence[str]] = field(default_factory=dict)
+
+    def scaled(self, factor: float) -> Layers:
+        """Return the layers with every radiance in them multiplied by a factor."""
+        planes = {
+            name: plane * np.float32(factor) if PARTS[name][1] == UNIT else plane
+            for name, plane in self.planes.items()
+        }
+        return replace(self, planes=planes)
 
     def save(self, path: Path) -> None:
         """Write an OpenEXR file, whole or not at all; numbers keep their bits as 32-bit ones."""

@@ -34,6 +34,7 @@ def render_recipe(
     size: tuple[int, int] | None = None,
     jobs: int | None = None,
     threads: int = 1,
+    gpu: bool = False,
     fresh: bool = False,
     remodelers: Sequence[Hook] = (),
     trust: bool = False,
@@ -50,6 +51,7 @@ def render_recipe(
     conditions : names of those to render; None: all
     jobs : workers at once; None: one a processor core
     threads : processor threads of each worker; with one, results repeat bit for bit
+    gpu : render on a graphics card, if the renderer can
     fresh : render even what is done
     remodelers : functions before_all, before_condition, after_condition, instead of remodeler.py
     trust : run the folder's remodeler.py even if the user has not agreed to that yet
@@ -68,7 +70,7 @@ def render_recipe(
     chosen = chosen_conditions(recipe, conditions)
     with locked(recipe.folder):
         sweep(recipe.folder)
-        journal, work = Journal(recipe, len(chosen)), _Work(jobs, threads, fresh, executor, scheduler)
+        journal, work = Journal(recipe, len(chosen)), _Work(jobs, threads, gpu, fresh, executor, scheduler)
         try:
             for event in _events(recipe, chosen, work, cancelled):
                 journal.note(stamped := journal.stamped(event))
@@ -84,6 +86,7 @@ class _Work:
 
     jobs: int | None
     threads: int
+    gpu: bool
     fresh: bool
     executor: Executor | None
     scheduler: str | None
@@ -103,7 +106,8 @@ class _Work:
     def _task(self, recipe: Recipe, condition: Condition) -> Task:
         parts = recipe.remodeler.parts if recipe.remodeler else ()
         overrides = dict(recipe.overrides)
-        return Task(str(recipe.folder), condition.name, overrides, self.threads, self.fresh, parts)
+        how = (self.threads, self.gpu, self.fresh)
+        return Task(str(recipe.folder), condition.name, overrides, *how, parts)
 
 
 def _events(

@@ -12,6 +12,7 @@ from typing import Any
 from ..conditions import Condition
 from ..errors import RecipeError
 from ..files import temporary_prefix
+from ..layers import Layers
 from ..recipe import Recipe
 from ..recipe.condition_scene import (
     adjustments_of,
@@ -22,9 +23,10 @@ from ..recipe.condition_scene import (
     resolve_condition,
 )
 from ..recipe.remodeler import Hook, remodeled
-from ..renderers.interface import RenderOptions, Report
+from ..renderers.interface import Report
 from ..spectral_image import SpectralImage
 from . import records
+from .beside import layers_of, refuse_layers, render_options
 from .keys import Key, key_of, plain
 
 SCRATCH = ".unfinished"  # where cubes are written before they take their place
@@ -60,6 +62,7 @@ def render_condition(
     report: Report = lambda _: None,
     *,
     threads: int = 1,
+    gpu: bool = False,
     fresh: bool = False,
     remodelers: Sequence[Hook] = (),
     trust: bool = False,
@@ -72,6 +75,7 @@ def render_condition(
     recipe : a recipe, or its folder
     report : called between passes with the fraction done; may raise Cancelled
     threads : processor threads to use
+    gpu : render on a graphics card, if the renderer can
     fresh : render even what is done
     remodelers : functions that change the scene, instead of the folder's remodeler.py
     trust : run the folder's remodeler.py even if the user has not agreed to that yet
@@ -90,15 +94,17 @@ def render_condition(
         raise RecipeError(missing[0])
     extras = remaining_lines(recipe, condition, resolved.extras)
     renderer = renderer_of(recipe, options.renderer)
+    refuse_layers(renderer, options.layers)
     folder = recipe.scenes_folder / options.renderer
     native = renderer.translate(resolved.scene, extras, folder, name)
     ready = time.monotonic()
-    image = renderer.render(native, RenderOptions(threads), report).scaled(recipe.conventions.factor)
+    how = render_options(options, threads, gpu)
+    image = renderer.render(native, how, report)
     ended = time.monotonic()
-    seconds = {"seconds": ended - began, "seconds rendering": ended - ready}
-    return _saved(
-        image, recipe, condition, records.record(recipe, condition, key, resolved.warnings, seconds)
-    )
+    layers = layers_of(renderer, native, image, options.layers, how, report)
+    seconds = {"seconds": time.monotonic() - began, "seconds rendering": ended - ready}
+    record = records.record(recipe, condition, key, resolved.warnings, seconds)
+    return _saved(image, layers, recipe, condition, record)
 
 
 def _as_remodeled(recipe: Recipe, condition: Condition, key: Key) -> Key:
@@ -118,18 +124,24 @@ def found(recipe: Recipe, condition: Condition, key: Key) -> Rendering | None:
     return Rendering(condition.name, file, records.read(recipe.record_file(condition)), False)
 
 
-def _saved(image: SpectralImage, recipe: Recipe, condition: Condition, record: dict[str, Any]) -> Rendering:
+def _saved(
+    image: SpectralImage, layers: Layers | None, recipe: Recipe, condition: Condition, record: dict[str, Any]
+) -> Rendering:
     """
-    Put a cube and its record into the folder.
+    Put a cube, its record and its layers into the folder, in the recipe's units.
 
-    The cube is written outside renderings/ and moved in, its record goes first: whatever moment a
+    The cube is written outside renderings/ and moved in, the others go first: whatever moment a
     process is killed in, a cube is there whole with its record, or it is not there.
     """
-    file = recipe.rendering_file(condition)
+    file, factor = recipe.rendering_file(condition), recipe.conventions.factor
+    image = image.scaled(factor)
+    record = {**record, "factor": image.factor, "renderer says": dict(image.attributes)}
     aside = _scratch_folder(recipe.folder, file.parent) / (temporary_prefix(os.getpid()) + file.name)
     try:
         image.with_attributes(records.attributes(record)).save(aside)
-        records.write(recipe.record_file(condition), {**record, "factor": image.factor})
+        if layers is not None:
+            layers.scaled(factor).save(recipe.layers_file(condition))
+        records.write(recipe.record_file(condition), record)
         aside.replace(file)
     except OSError as error:
         raise RecipeError(f"cannot write {file}: {error.strerror}") from error

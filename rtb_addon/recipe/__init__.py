@@ -164,6 +164,10 @@ class Recipe:
         """Return where it is written how a condition's cube was made."""
         return self.rendering_file(condition).with_suffix(".json")
 
+    def layers_file(self, condition: Condition) -> Path:
+        """Return where a condition's depth, normals, standard errors and other layers are kept."""
+        return self.folder / "layers" / self.options_of(condition).renderer / f"{condition.name}.exr"
+
     def montage_file(self, renderer: str) -> Path:
         """Return where the picture of all conditions is kept."""
         return self.folder / "images" / renderer / f"{self.name}.png"

@@ -10,6 +10,7 @@ from collections.abc import Iterator, Mapping
 from typing import Literal, NamedTuple
 
 from ..scene.render_scene import Film, Integrator, Light, Material, RenderScene, Texture, TextureUse
+from ..spectra import Spectrum
 
 
 class Fidelity(NamedTuple):
@@ -42,11 +43,13 @@ TABLE: Mapping[str, Mapping[str, Fidelity]] = {
     "light directional": {"mitsuba": EXACT, "tracer": EXACT},
     "light area": {"mitsuba": EXACT, "tracer": EXACT},
     "light environment": {"mitsuba": EXACT, "tracer": EXACT},
+    "light environment picture": {"mitsuba": EXACT},
     "texture checkerboard": {"mitsuba": EXACT, "tracer": EXACT},
     "texture bitmap": {"mitsuba": EXACT, "tracer": EXACT},
     "camera perspective": {"mitsuba": EXACT, "tracer": EXACT},
     "camera orthographic": {"mitsuba": EXACT, "tracer": EXACT, "sphere": EXACT},
     "filter box": {"mitsuba": EXACT, "tracer": EXACT, "sphere": EXACT},
+    "distribution beckmann": {"mitsuba": EXACT, "tracer": EXACT},
     "bands averaged": {"mitsuba": EXACT, "tracer": EXACT, "sphere": EXACT},
     "bands centre": {"mitsuba": EXACT, "tracer": EXACT, "sphere": EXACT},
 }
@@ -76,7 +79,7 @@ def _features(scene: RenderScene) -> Iterator[tuple[str, str]]:
     yield from _environment(scene.environment)
     yield f"camera {scene.camera.projection}", f"camera {scene.camera.id} is {scene.camera.projection}"
     if scene.camera.lens_radius:
-        yield "camera thin lens", f"camera {scene.camera.id} has a lens of some width"
+        yield "lens thin", f"camera {scene.camera.id} has a lens of some width"
     yield from _settings(scene.film, scene.integrator)
 
 
@@ -90,6 +93,11 @@ def _settings(film: Film, integrator: Integrator) -> Iterator[tuple[str, str]]:
 
 
 def _textures(material: Material, textures: Mapping[str, Texture]) -> Iterator[tuple[str, str]]:
+    if isinstance(material.parameters.get("intIOR"), Spectrum):
+        yield "index spectrum", f"intIOR of material {material.id} is a spectrum"
+    if material.parameters.get("distribution", "beckmann") != "beckmann":
+        slopes = material.parameters["distribution"]
+        yield f"distribution {slopes}", f"the distribution of material {material.id} is {slopes}"
     for name, value in material.parameters.items():
         if isinstance(value, TextureUse):
             kind = textures[value.texture].kind if value.texture in textures else "missing"

@@ -155,6 +155,7 @@ class SceneBuilder(ParentDocument):
         shift: tuple[float, float] = (0.0, 0.0),
         placement: Where = UNMOVED,
         parent: str | None = None,
+        lens: tuple[float, float] | None = None,
     ) -> str:
         """
         Make a camera that looks along -Z, with +Y up.
@@ -165,8 +166,9 @@ class SceneBuilder(ParentDocument):
         aspect : width by height of the picture
         clip : near and far [scene units]
         shift : of the picture, right and up, as fractions of its longer side
+        lens : radius of a thin lens and the distance that is sharp [scene units]; None for a pinhole
         """
-        eye = self.eye(name, write_collada.perspective(xfov, aspect, clip), shift)
+        eye = self.eye(name, write_collada.perspective(xfov, aspect, clip), shift, lens)
         return self._seen(name, eye, placement, parent)
 
     def orthographic_camera(

@@ -7,7 +7,7 @@ from typing import Literal
 import numpy as np
 
 from ..spectra import FloatArray
-from .collada_sources import blender_child, child, number
+from .collada_sources import PROFILE, child, extra_child, number
 from .paths import Element, local_name
 from .render_scene import Camera, Film
 
@@ -23,7 +23,8 @@ def read_camera(
 
     ``xfov`` is the full angle over the picture's width and ``xmag`` half that width, whatever
     ``aspect_ratio`` says: pixels are square, unless ``yfov`` or ``ymag`` stands beside it for the height.
-    ``shiftx`` and ``shifty`` of Blender's own part are fractions of the picture's larger side.
+    ``shiftx`` and ``shifty`` of Blender's own part are fractions of the picture's larger side;
+    ``lens_radius`` and ``focus_distance`` of ours are lengths of a thin lens.
 
     Parameters
     ----------
@@ -45,7 +46,8 @@ def read_camera(
     projection: Literal["perspective", "orthographic"] = (
         "perspective" if local_name(lens) == "perspective" else "orthographic"
     )
-    return Camera(name, projection, rigid(to_world @ flip), window, _clip(lens, unit))
+    thin = _thin_lens(camera, name, unit)
+    return Camera(name, projection, rigid(to_world @ flip), window, _clip(lens, unit), *thin)
 
 
 def rigid(to_world: FloatArray) -> FloatArray:
@@ -96,8 +98,22 @@ def _half(lens: Element, name: str, unit: float) -> float | None:
 
 def _shifted(halves: tuple[float, float], camera: Element) -> Window:
     side = 2 * max(halves)
-    x, y = (side * number(blender_child(camera, name), 0.0) for name in ("shiftx", "shifty"))
+    x, y = (side * number(extra_child(camera, name), 0.0) for name in ("shiftx", "shifty"))
     return x - halves[0], x + halves[0], y - halves[1], y + halves[1]
+
+
+def _thin_lens(camera: Element, name: str, unit: float) -> tuple[float, float]:
+    """Return a lens's radius and the distance that is sharp [m]."""
+    radius, distance = (
+        number(extra_child(camera, word, PROFILE), default / unit) * unit
+        for word, default in (("lens_radius", 0.0), ("focus_distance", 1.0))
+    )
+    if radius < 0 or distance <= 0:
+        raise ValueError(
+            f"the camera {name} has a lens of radius {radius:g} m focused at {distance:g} m, want at least 0"
+            " and more than 0"
+        )
+    return radius, distance
 
 
 def _clip(lens: Element, unit: float) -> tuple[float, float]:

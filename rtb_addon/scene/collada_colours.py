@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from typing import NamedTuple
 
-from .collada_sources import blender_child, child, floats, number
+from .collada_sources import child, extra_child, floats, number
 from .collada_textures import Picture, picture_in
 from .paths import Element, local_name
 
@@ -71,7 +71,7 @@ def read_lamp(light: Element) -> Lamp:
     if kind != "spot":
         return Lamp(kind, colour, {})
     cone = number(child(found[0], "falloff_angle"), 180.0)
-    blend = number(blender_child(light, "spotblend"), 0.0)
+    blend = number(extra_child(light, "spotblend"), 0.0)
     return Lamp(kind, colour, {"cone": cone, "blend": blend})
 
 

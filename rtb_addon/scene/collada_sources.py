@@ -10,6 +10,8 @@ from ..spectra import FloatArray
 from .paths import Element, local_name
 from .render_scene import IntArray
 
+# What Collada calls the parts of a document that are ours alone.
+PROFILE = "RenderToolbox"
 # Texts shorter than this are quicker to read word by word.
 _SHORT = 300
 
@@ -29,11 +31,11 @@ def children(element: Element, name: str) -> list[Element]:
     return [each for each in element if local_name(each) == name]
 
 
-def blender_child(element: Element, name: str) -> Element | None:
-    """Return the element of a name in the part of an element that Blender wrote for itself, or None."""
+def extra_child(element: Element, name: str, profile: str = "blender") -> Element | None:
+    """Return the element of a name in the part of an element that a program wrote for itself, or None."""
     for extra in children(element, "extra"):
         for technique in children(extra, "technique"):
-            if technique.get("profile") == "blender" and (found := child(technique, name)) is not None:
+            if technique.get("profile") == profile and (found := child(technique, name)) is not None:
                 return found
     return None
 

@@ -78,7 +78,13 @@ class ParentDocument:
         self._libraries["lights"].append(write_collada.light(id, name, kind, colour, cone, blend))
         return id
 
-    def eye(self, name: str, view: Element, shift: tuple[float, float] = (0.0, 0.0)) -> str:
+    def eye(
+        self,
+        name: str,
+        view: Element,
+        shift: tuple[float, float] = (0.0, 0.0),
+        lens: tuple[float, float] | None = None,
+    ) -> str:
         """
         Make a camera that looks along -Z, with +Y up.
 
@@ -86,9 +92,10 @@ class ParentDocument:
         ----------
         view : write_collada.perspective() or orthographic()
         shift : of the picture, right and up, as fractions of its longer side
+        lens : radius of a thin lens and the distance that is sharp [scene units]; None for a pinhole
         """
         id = self.ids.take(name, "-camera")
-        self._libraries["cameras"].append(write_collada.camera(id, name, view, shift))
+        self._libraries["cameras"].append(write_collada.camera(id, name, view, shift, lens))
         return id
 
     def node(self, name: str, placement: Where = UNMOVED, parent: str | None = None) -> str:

@@ -22,7 +22,7 @@ FindFile = Callable[[str], Path | None]
 
 _FILE_NAME = re.compile(r"\.[A-Za-z]\w*$")
 # Ratios that are no reflectances: indices of refraction and extinction may well be above 1.
-_INDICES = ("eta", "k")
+_INDICES = ("eta", "k", "intIOR")
 
 
 @dataclass
@@ -46,8 +46,13 @@ class Values:
                 return TextureUse(said.value)
             if parameter.kind == "spectrum":
                 return self._spectrum(owner, said, Unit(parameter.unit))
-            if parameter.kind == "number":
+            if parameter.kind == "index" and said.type == "spectrum":
+                return self._spectrum(owner, said, Unit(parameter.unit))
+            if parameter.kind in ("number", "index"):
                 return _number(said)
+            if parameter.choices and said.value not in parameter.choices:
+                there = ", ".join(parameter.choices)
+                raise ValueError(f"{said.name} of {owner} is {said.value}, want one of {there}")
             return self._file(said) if said.name == "filename" else said.value
 
     def _spectrum(self, owner: str, said: Property, unit: Unit) -> Spectrum:

@@ -8,9 +8,12 @@ renderers/fidelity.py.
 from __future__ import annotations
 
 from collections.abc import Mapping
-from typing import Literal, NamedTuple
+from typing import TYPE_CHECKING, Literal, NamedTuple
 
-from ..spectra import Spectrum, Unit
+from ..units import Unit
+
+if TYPE_CHECKING:
+    from ..spectra import Spectrum
 
 
 class Parameter(NamedTuple):
@@ -19,14 +22,17 @@ class Parameter(NamedTuple):
 
     Parameters
     ----------
-    kind : spectrum, number, text or reference (the id of another material or texture)
+    kind : spectrum, number, index (of refraction, a number or a spectrum), text or reference (the id of
+        another material or texture)
     default : what it is when a recipe does not say, the name of a file perhaps; None where it must say
     unit : unit of the numbers; of a spectrum's values when kind is spectrum
+    choices : the texts that it may be; empty for any
     """
 
-    kind: Literal["spectrum", "number", "text", "reference"]
+    kind: Literal["spectrum", "number", "index", "text", "reference"]
     default: float | str | None = None
     unit: str = "1"
+    choices: tuple[str, ...] = ()
 
     def default_value(self) -> Spectrum | float | str | None:
         """Return the default as a renderer gets it, or None; a file is for Values to read."""
@@ -34,6 +40,8 @@ class Parameter(NamedTuple):
             return self.default
         if self.default is None or isinstance(self.default, str):
             return None
+        from ..spectra import Spectrum  # brings numpy, which panels that only read words need not wait for
+
         return Spectrum.constant(float(self.default), Unit(self.unit))
 
 
@@ -52,7 +60,11 @@ def intensity(unit: Unit) -> Parameter:
     return Parameter("spectrum", 1.0, unit.value)
 
 
-_INDICES = {"intIOR": number(1.5), "extIOR": number(1.0)}
+WARD_VARIANTS = ("ward", "ward-duer", "balanced")
+
+_INDICES = {"intIOR": Parameter("index", 1.5), "extIOR": number(1.0)}
+# Of the slopes of a rough surface's small mirrors.
+_SLOPES = {"distribution": Parameter("text", "beckmann", choices=("beckmann", "ggx"))}
 _TINTS = {"specularReflectance": reflectance(1.0), "specularTransmittance": reflectance(1.0)}
 _INDEX_SPECTRA = {"eta": Parameter("spectrum", "Cu.eta.spd"), "k": Parameter("spectrum", "Cu.k.spd")}
 _WRAPPED = {"materialID": Parameter("reference"), "textureID": Parameter("reference")}
@@ -64,15 +76,21 @@ MATERIALS: Mapping[str, Mapping[str, Parameter]] = {
         "specularReflectance": reflectance(),
         "alphaU": number(0.1),
         "alphaV": number(0.1),
-        "variant": Parameter("text", "ward"),
+        "variant": Parameter("text", "ward", choices=WARD_VARIANTS),
     },
-    "metal": {**_INDEX_SPECTRA, "roughness": number(0.4)},
+    "metal": {**_INDEX_SPECTRA, "roughness": number(0.4), **_SLOPES},
     "mirror": {"specularReflectance": reflectance(1.0)},
     "glass": {**_INDICES, **_TINTS},
     "thinglass": {**_INDICES, **_TINTS},
-    "roughglass": {**_INDICES, **_TINTS, "roughness": number(0.1)},
-    "plastic": {**_INDICES, "diffuseReflectance": reflectance()},
-    "roughplastic": {**_INDICES, "diffuseReflectance": reflectance(), "roughness": number(0.1)},
+    "roughglass": {**_INDICES, **_TINTS, "roughness": number(0.1), **_SLOPES},
+    "plastic": {"intIOR": number(1.5), "extIOR": number(1.0), "diffuseReflectance": reflectance()},
+    "roughplastic": {
+        "intIOR": number(1.5),
+        "extIOR": number(1.0),
+        "diffuseReflectance": reflectance(),
+        "roughness": number(0.1),
+        **_SLOPES,
+    },
     "principled": {
         "baseColor": reflectance(),
         "metallic": number(0.0),

@@ -10,6 +10,7 @@ import numpy as np
 from lxml import etree
 
 from ..spectra import FloatArray
+from .collada_sources import PROFILE
 from .placement import Placement
 from .surface import IntArray, Surface
 from .write_numbers import floats, indices, number, numbers
@@ -43,7 +44,9 @@ def asset(tool: str, meter: float) -> Element:
     )
 
 
-def camera(id: str, name: str, view: Element, shift: tuple[float, float]) -> Element:
+def camera(
+    id: str, name: str, view: Element, shift: tuple[float, float], lens: tuple[float, float] | None = None
+) -> Element:
     """
     Return a camera.
 
@@ -51,10 +54,13 @@ def camera(id: str, name: str, view: Element, shift: tuple[float, float]) -> Ele
     ----------
     view : perspective() or orthographic()
     shift : of the picture, right and up, as fractions of its longer side
+    lens : radius of a thin lens and the distance that is sharp [scene units]; None for a pinhole
     """
     optics = new("optics", new("technique_common", view))
-    moved = [_extra_number(name, value) for name, value in zip(("shiftx", "shifty"), shift, strict=True)]
-    return new("camera", optics, _extra(moved), id=id, name=name)
+    parts = [_technique(_extra_numbers(("shiftx", "shifty"), shift))]
+    if lens is not None:
+        parts.append(_technique(_extra_numbers(("lens_radius", "focus_distance"), lens), PROFILE))
+    return new("camera", optics, new("extra", *parts), id=id, name=name)
 
 
 def perspective(xfov: float, aspect: float, clip: tuple[float, float], yfov: float | None = None) -> Element:
@@ -249,8 +255,12 @@ def document(
     return texts.put_into(etree.tostring(root, xml_declaration=True, encoding="utf-8", pretty_print=True))
 
 
-def _extra(parts: Sequence[Element]) -> Element:
-    return new("extra", new("technique", *parts, profile="blender"))
+def _technique(parts: Sequence[Element], profile: str = "blender") -> Element:
+    return new("technique", *parts, profile=profile)
+
+
+def _extra_numbers(names: Sequence[str], values: Sequence[float]) -> list[Element]:
+    return [_extra_number(name, value) for name, value in zip(names, values, strict=True)]
 
 
 def _extra_number(name: str, value: float) -> Element:

@@ -14,6 +14,7 @@ from pathlib import Path
 import numpy as np
 
 from rtb_addon.errors import RenderingError
+from rtb_addon.layers import Layers
 from rtb_addon.renderers.interface import Installed
 from rtb_addon.spectra import Bands
 from rtb_addon.spectral_image import SpectralImage
@@ -50,7 +51,15 @@ class Plain:
             time.sleep(float(os.environ.get("PLAIN_PASS", "0.001")))
         radiance = np.broadcast_to(np.float32(words["reflectance"]), (*words["size"], len(words["centres"])))
         bands = Bands(np.array(words["centres"]), np.array(words["edges"]))
-        return SpectralImage(np.ascontiguousarray(radiance), bands)
+        limits = {"seconds": str(options.seconds), "error": str(options.error), "gpu": str(options.gpu)}
+        error = radiance / 100 if options.errors else None
+        return SpectralImage(np.ascontiguousarray(radiance), bands, "averaged", 1.0, limits, error)
+
+    def layers(self, native, names, options, report):
+        image = self.render(native, options, report)
+        depth = np.ones(image.radiance.shape[:2], np.float32)
+        known = {"depth": depth, "albedo": image.radiance, "direct": image.radiance}
+        return Layers({name: known[name] for name in names}, image.bands)
 
 
 def _misbehave(native: Path) -> None:

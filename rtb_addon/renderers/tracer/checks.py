@@ -6,6 +6,7 @@ from collections.abc import Iterator, Mapping
 
 from ...errors import RecipeError
 from ...scene.render_scene import Material, RenderScene, Texture, TextureUse, Value
+from ...scene.vocabulary import WARD_VARIANTS
 
 _LIGHTS = {"radius": (0, 1e30), "cone": (0, 180), "blend": (0, 1), "angle": (0, 180)}
 _MATERIALS = {
@@ -23,7 +24,6 @@ _WORDS = {
     "wrapMode": ("repeat", "mirror", "clamp"),
     "filterMode": ("ewa", "trilinear", "bilinear", "nearest"),
 }
-VARIANTS = ("ward", "ward-duer", "balanced")
 _REFERENCES = ("materialID", "otherMaterialID")
 
 
@@ -61,10 +61,10 @@ def _check_numbers(what: str, said: Mapping[str, Value], ranges: Mapping[str, tu
 
 
 def _check_variant(material: Material) -> None:
-    variant = material.parameters.get("variant", VARIANTS[0])
-    if variant not in VARIANTS:
+    variant = material.parameters.get("variant", WARD_VARIANTS[0])
+    if variant not in WARD_VARIANTS:
         raise RecipeError(
-            f"material {material.id} has variant {variant}, choose one of {', '.join(VARIANTS)}"
+            f"material {material.id} has variant {variant}, choose one of {', '.join(WARD_VARIANTS)}"
         )
 
 

@@ -18,9 +18,9 @@ from collections.abc import Sequence
 import numpy as np
 
 from ...scene.render_scene import IntArray, Material
+from ...scene.vocabulary import WARD_VARIANTS
 from ...spectra import FloatArray
 from . import beckmann
-from .checks import VARIANTS
 from .directions import dot
 from .matte import lobe, scattered
 from .meeting import Meeting, Onward, chosen, column, weighed
@@ -37,7 +37,7 @@ class Ward:
         self._diffuse = palette.colours(materials, "diffuseReflectance")
         self._specular = palette.colours(materials, "specularReflectance")
         self._along, self._across = numbers(materials, "alphaU"), numbers(materials, "alphaV")
-        self._variant = np.array([VARIANTS.index(str(one.parameters["variant"])) for one in materials])
+        self._variant = np.array([WARD_VARIANTS.index(str(one.parameters["variant"])) for one in materials])
         # Half the paths for either lobe, none for a lobe that is black.
         matte, glossy = self._diffuse.bright, self._specular.bright
         self._glossy = glossy / np.maximum(matte * 1.0 + glossy, 1)

@@ -1,0 +1,54 @@
+"""What a recipe wants beside a rendering: depth, normals, albedo, standard errors."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import replace
+from pathlib import Path
+from typing import Any
+
+from ..errors import RecipeError
+from ..layers import Layers
+from ..recipe.options import RecipeOptions
+from ..renderers.interface import Renderer, RenderOptions, Report
+from ..spectral_image import SpectralImage
+
+ERROR = "standard_error"  # comes with the rendering itself; a renderer's layers() has the others
+
+
+def render_options(options: RecipeOptions, threads: int, gpu: bool = False) -> RenderOptions:
+    """Return what a recipe says of how to render that no native scene holds."""
+    return RenderOptions(threads, options.until_seconds, options.until_error, ERROR in options.layers, gpu)
+
+
+def refuse_layers(renderer: Renderer, names: Sequence[str]) -> None:
+    """Raise where a renderer knows no layers and a recipe wants some."""
+    if set(names) - {ERROR} and not hasattr(renderer, "layers"):
+        wanted = ", ".join(names)
+        raise RecipeError(f"layers are {wanted}, the renderer {renderer.name} knows none, leave them empty")
+
+
+def layers_of(
+    renderer: Any,
+    native: Path,
+    image: SpectralImage,
+    names: Sequence[str],
+    options: RenderOptions,
+    report: Report,
+) -> Layers | None:
+    """
+    Return the layers that a recipe wants in SI units, None when it wants none.
+
+    Parameters
+    ----------
+    image : the rendering in SI units, with its standard errors where they are wanted
+    """
+    if not names:
+        return None
+    others = [name for name in names if name != ERROR]
+    found = renderer.layers(native, others, options, report) if others else Layers({})
+    if ERROR not in names:
+        return found
+    if image.standard_error is None:
+        raise RecipeError(f"the renderer {renderer.name} knows no standard errors, take them out of layers")
+    return replace(found, planes={**found.planes, ERROR: image.standard_error}, bands=image.bands)
