@@ -72,6 +72,11 @@ def read_picture(path: Path, gamma: float = 1.0) -> Picture:
     return _coloured(_linear(_read_common(path), gamma))
 
 
+def sky_gamma(path: Path) -> float:
+    """Return the gamma of a picture of the sky: files for screens hold sRGB's curve, others light itself."""
+    return 1.0 if path.suffix.lower() == ".exr" else -1.0
+
+
 def _read_exr(path: Path) -> Picture | FloatArray:
     planes = {_REFLECTANCE.sub("S0.", name): plane for name, plane in read_exr(path)[1].items()}
     if {"R", "G", "B"} <= planes.keys():

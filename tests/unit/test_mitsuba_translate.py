@@ -223,7 +223,7 @@ WRONG = {
     "no sunsky light yet": lambda: scene([Light("Lamp", "sunsky", np.eye(4), {})]),
     "-2 as its radius": lambda: scene([lamp("point", radius=-2)]),
     "a cone of 200 degrees": lambda: scene([lamp("spot", cone=200.0, blend=0.0)]),
-    "but an even one yet": lambda: scene(environment=lamp("environment", filename="sky.exr")),
+    "knows no fog around a scene": lambda: scene(environment=lamp("fog")),
     "shines nowhere": lambda: scene([lamp("directional", np.zeros((4, 4)), angle=0.0)]),
 }
 
@@ -262,6 +262,22 @@ WRONG |= {
         "anisoward", variant="phong", alphaU=0.1, alphaV=0.1, diffuseReflectance=GREY
     ),
 }
+
+
+def test_a_picture_around_the_scene_is_a_plugin_that_a_comment_names(tmp_path):
+    said = {"environment": lamp("environment", at(1, 2, 3), filename=str(tmp_path / "resources" / "sky.png"))}
+    root = xml(scene(**said), tmp_path / "scenes")
+    (sky,) = root.iter("emitter")
+    assert sky.get("type") == "skypicture"
+    facts = properties(sky.find("texture"))
+    assert (facts["filename"], facts["gamma"], facts["wrap_mode"]) == (
+        "../resources/sky.png",
+        "-1.0",
+        "around",
+    )
+    # It is turned as the world is, and neither moved nor scaled.
+    assert sky.find("transform/matrix").get("value").split() == [repr(x) for x in np.eye(4).ravel().tolist()]
+    assert "<!-- Lamp needs a plugin of ours" in (tmp_path / "scenes" / "scene.xml").read_text()
 
 
 @pytest.mark.parametrize("words", WRONG)

@@ -26,23 +26,12 @@ def light(lamp: Light, names: Names, span: Span) -> list[Xml.Element]:
         raise RecipeError(
             f"Mitsuba renders no {lamp.kind} light yet, make {lamp.id} point, spot or directional"
         )
-    intensity = _intensity(lamp)
+    intensity = intensity_of(lamp)
     return make(lamp, intensity, names, span) if intensity.values.any() else []
 
 
-def environment(lamp: Light, names: Names, span: Span) -> list[Xml.Element]:
-    """Return the environment: the same radiance from everywhere."""
-    if lamp.kind != "environment" or lamp.parameters.get("filename"):
-        raise RecipeError(
-            f"Mitsuba renders no environment but an even one yet, give {lamp.id} an intensity alone"
-        )
-    intensity = _intensity(lamp)
-    node = element("emitter", "constant", id=names.of("emitter", lamp.id))
-    node.append(format_spectrum("radiance", intensity, span))
-    return [node] if intensity.values.any() else []
-
-
-def _intensity(lamp: Light) -> Spectrum:
+def intensity_of(lamp: Light) -> Spectrum:
+    """Return a lamp's intensity, in the unit of its kind."""
     intensity = lamp.parameters["intensity"]
     if not isinstance(intensity, Spectrum):
         raise RecipeError(f"light {lamp.id} needs a spectrum as its intensity")

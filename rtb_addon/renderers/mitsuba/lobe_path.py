@@ -49,7 +49,7 @@ def path_radiance(scene, tables: Tables, sampler, ray, depth) -> list:
         row = tables.emitter_row(emitter, active)
         glow = scalar * share * emitter.eval(si, active).x * tables.beam(row, -ray.d, active)
         shines = active & (glow != 0)
-        radiance = _add(radiance, spectral, tables.emission(row, shines), dr.select(shines, glow, 0))
+        radiance = _add(radiance, spectral, tables.emission(row, ray.d, shines), dr.select(shines, glow, 0))
         if dr.hint(tables.suns > 0, mode="scalar"):
             missed = active & ~si.is_valid() & before_delta
             radiance = _add_suns(tables, ray, radiance, spectral, dr.select(missed, scalar, 0))
@@ -67,7 +67,7 @@ def path_radiance(scene, tables: Tables, sampler, ray, depth) -> list:
         share = dr.select(found.delta, 1, found.pdf / (found.pdf + pdf))
         row = tables.emitter_row(found.emitter, lit)
         glow = dr.select(lit, scalar * share * weight.x * tables.beam(row, -found.d, lit), 0)
-        emission = tables.emission(row, lit)
+        emission = tables.emission(row, found.d, lit)
         seen_lit, spectral, scalar, glow = scatter(
             tables, spectral, scalar, (bsdf, si, going), (towards, value, glow), (turn.wo, onward)
         )

@@ -44,12 +44,12 @@ _LINEAR: Mapping[str, Mapping[str, float]] = {
 @dataclass(frozen=True, eq=False)
 class PictureUse:
     """
-    A picture on a surface.
+    A picture on a surface, or around the scene.
 
     Parameters
     ----------
     file, gamma : of the picture
-    wrap : what lies beyond its edges, a word of textures_xml.WRAPS
+    wrap : what lies beyond its edges, a word of textures_xml.ALL_WRAPS
     nearest : whether texels are squares; else they fade into each other
     place : scale of U and of V, offset of U and of V
     """
@@ -70,7 +70,7 @@ class Lobe:
     ----------
     reflectance : the spectrum
     index : eta and k of a metal, or None
-    picture : what stands in the place of the spectrum, or None
+    picture : what multiplies the spectrum, or None
     """
 
     reflectance: Spectrum
@@ -131,16 +131,15 @@ def _lobe(node: Xml.Element, index: tuple[Xml.Element, ...]) -> Lobe:
     metal = (eta_and_k[0], eta_and_k[1]) if index else None
     if node.tag == "spectrum":
         return Lobe(parse_spectrum(node), metal)
+    return Lobe(Spectrum.constant(1.0), metal, picture_use(node))
+
+
+def picture_use(node: Xml.Element) -> PictureUse:
+    """Return what an element of type picture says."""
     said = properties(node)
     place = tuple(float(said[name]) for name in ("scale_u", "scale_v", "offset_u", "offset_v"))
-    use = PictureUse(
-        Path(said["filename"]),
-        float(said["gamma"]),
-        said["wrap_mode"],
-        said["filter_type"] == "nearest",
-        place,
-    )
-    return Lobe(Spectrum.constant(1.0), metal, use)
+    nearest = said["filter_type"] == "nearest"
+    return PictureUse(Path(said["filename"]), float(said["gamma"]), said["wrap_mode"], nearest, place)
 
 
 def _complete(id: str, node: Xml.Element) -> None:

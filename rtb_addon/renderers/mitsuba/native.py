@@ -58,6 +58,8 @@ class Native:
             if node.get("id") and any(each.get("type") == "picture" for each in node.iter("texture"))
         )
         said += [f"the picture on {name}" for name in pictured]
+        skies = [node.get("id", "") for node in self.root.iter("emitter") if node.get("type") == "skypicture"]
+        said += [f"the picture {name} around the scene" for name in skies]
         return said + (["pixels that are not square"] if self.pixel_stretch != 1 else [])
 
 

@@ -9,7 +9,7 @@ from __future__ import annotations
 
 import copy
 import math
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from xml.etree import ElementTree as Xml
 
 import numpy as np
@@ -17,7 +17,7 @@ import numpy as np
 from ...errors import RenderingError
 from ...spectra import FloatArray, Spectrum
 from .lights_xml import ball
-from .lobes import Lobe, one_hot_colour, take_lobes
+from .lobes import Lobe, PictureUse, one_hot_colour, picture_use, take_lobes
 from .native import Native
 from .spectrum_xml import element, parse_spectrum, properties
 
@@ -33,6 +33,8 @@ class Emitter:
     axis : where a spot or a sun shines
     outer, inner : cosines at which a spot's beam has faded out and begins to fade; -2 shines everywhere
     narrowness : 1 - cosine of half the angle of a sun's disc, 0 for everything else
+    picture : what multiplies the spectrum of the sky, or None
+    turn : (3, 3) array, from the picture's own frame to the world
     """
 
     spectrum: Spectrum
@@ -40,6 +42,8 @@ class Emitter:
     outer: float = -2.0
     inner: float = -2.0
     narrowness: float = 0.0
+    picture: PictureUse | None = None
+    turn: FloatArray = field(default_factory=lambda: np.eye(3))
 
 
 @dataclass(frozen=True, eq=False)
@@ -135,6 +139,10 @@ def _round_out(root: Xml.Element, spot: Xml.Element, centre: FloatArray, radius:
 
 def _take_emitter(node: Xml.Element, native: Native, beams: dict[str, dict]) -> Emitter:
     place, spectrum = _id(node), _take_spectrum(node)
+    if (picture := node.find("texture[@type='picture']")) is not None:
+        # Where the light is still decides where paths look for it.
+        node.append(Xml.Element("boolean", name="even", value="true"))
+        return Emitter(spectrum, picture=picture_use(picture), turn=_matrix(node)[:3, :3])
     angle = math.radians(float(native.defaults.get(f"{place}_angle", 0.0)))
     if not angle:
         return Emitter(spectrum, **beams.get(place, {}))

@@ -11,7 +11,9 @@ from typing import Any, NamedTuple
 import drjit as dr
 import mitsuba as mi
 
-from .textures_xml import WRAPS
+from .textures_xml import ALL_WRAPS, AROUND
+
+_MIRROR, _CLAMP, _AROUND = (ALL_WRAPS.index(word) for word in ("mirror", "clamp", AROUND))
 
 
 class Layout(NamedTuple):
@@ -21,7 +23,7 @@ class Layout(NamedTuple):
     Parameters
     ----------
     first, width, height : of its texels, row 0 on top
-    wrap : number of its word in textures_xml.WRAPS
+    wrap : number of its word in textures_xml.ALL_WRAPS
     nearest : 1 takes the nearest texel alone, 0 the four around
     place : scale of U and of V, offset of U and of V
     """
@@ -40,7 +42,8 @@ def taps(layout: Layout, uv) -> list[tuple[Any, Any]]:
     # V grows upwards, rows are counted from the top.
     v = 1 - (layout.place.y * uv.y + layout.place.w)
     columns = _beside(u, layout.width, layout)
-    rows = _beside(v, layout.height, layout)
+    ends = dr.select(layout.wrap == _AROUND, _CLAMP, layout.wrap)
+    rows = _beside(v, layout.height, layout._replace(wrap=ends))
     return [
         (layout.first + row * layout.width + column, across * along)
         for row, along in rows
@@ -63,6 +66,6 @@ def _wrapped(place, count, wrap):
     again = place - width * dr.floor(place / width)
     there_and_back = place - 2 * width * dr.floor(place / (2 * width))
     mirrored = dr.minimum(there_and_back, 2 * width - 1 - there_and_back)
-    found = dr.select(wrap == WRAPS.index("mirror"), mirrored, again)
-    found = dr.select(wrap == WRAPS.index("clamp"), place, found)
+    found = dr.select(wrap == _MIRROR, mirrored, again)
+    found = dr.select(wrap == _CLAMP, place, found)
     return mi.UInt32(dr.clip(found, 0, dr.maximum(width, 1) - 1))

@@ -7,6 +7,7 @@ path does not use this plugin: it looks the bands of texels up itself (see pictu
 
 from __future__ import annotations
 
+from functools import cached_property
 from pathlib import Path
 from types import ModuleType
 from typing import Any
@@ -14,7 +15,7 @@ from typing import Any
 import numpy as np
 
 from ..pictures import read_picture
-from .textures_xml import WRAPS
+from .textures_xml import ALL_WRAPS
 
 
 def picture_plugin(mi: ModuleType) -> Any:
@@ -29,17 +30,21 @@ def picture_plugin(mi: ModuleType) -> Any:
         def __init__(self, props):
             mi.Texture.__init__(self, props)
             resolved = mi.file_resolver().resolve(props["filename"])
-            picture = read_picture(Path(str(resolved)), props.get("gamma", 1.0))
-            self.size = picture.texels.shape
-            self.average = float(picture.texels.mean())
-            self.texels = mi.Float(np.ravel(picture.texels).astype(np.float32))
-            self.wavelengths = mi.Float(picture.wavelengths.astype(np.float32))
-            self.wrap = WRAPS.index(props.get("wrap_mode", "repeat"))
+            self.picture = read_picture(Path(str(resolved)), props.get("gamma", 1.0))
+            self.size = self.picture.texels.shape
+            self.average = float(self.picture.texels.mean())
+            self.wavelengths = mi.Float(self.picture.wavelengths.astype(np.float32))
+            self.wrap = ALL_WRAPS.index(props.get("wrap_mode", "repeat"))
             self.nearest = props.get("filter_type", "bilinear") == "nearest"
             place = [props.get(f"scale_{x}", 1.0) for x in "uv"] + [
                 props.get(f"offset_{x}", 0.0) for x in "uv"
             ]
             self.place: Any = mi.Vector4f(*place)
+
+        @cached_property
+        def texels(self):
+            # The lobe path never asks for them.
+            return mi.Float(np.ravel(self.picture.texels).astype(np.float32))
 
         def eval(self, si, active=True):
             from .picture_lookup import Layout, taps

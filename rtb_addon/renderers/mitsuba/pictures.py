@@ -10,18 +10,18 @@ This module is imported only by what renders with Mitsuba, after its variant is 
 from __future__ import annotations
 
 from collections.abc import Sequence
-from pathlib import Path
 from typing import Any
 
 import drjit as dr
 import mitsuba as mi
 import numpy as np
 
-from ...spectra import BandKind, Bands, FloatArray
+from ...spectra import BandKind, Bands, FloatArray, Spectrum
 from ..pictures import Picture, read_picture
+from .arrays import floats
 from .lobes import Lobe, PictureUse
 from .picture_lookup import Layout, taps
-from .textures_xml import WRAPS
+from .textures_xml import ALL_WRAPS
 
 # Channels that are kept as they are: a packet that memory gives at once.
 _FEW = 4
@@ -46,13 +46,13 @@ class Pictures:
         places = np.zeros((len(lobes), 4), np.float32)
         for number, lobe in enumerate(lobes):
             if lobe is not None and (use := lobe.picture) is not None:
-                first, width, height, kept, row = store.add(use)
-                ways = WRAPS.index(use.wrap), use.nearest
+                first, width, height, kept, row = store.add(use, lobe.reflectance)
+                ways = ALL_WRAPS.index(use.wrap), use.nearest
                 layout[number, :7] = first, width, height, *ways, kept, row
                 places[number] = use.place
         self._few, self._many = bool(store.few), bool(store.many)
         self.any = self._few or self._many
-        self._layout, self._places = mi.UInt32(layout.ravel()), _table([places])
+        self._layout, self._places = mi.UInt32(layout.ravel()), floats(places)
         tables = (_table(blocks) for blocks in (store.few, store.many, store.weights))
         self._few_texels, self._many_texels, self._weights = tables
 
@@ -107,34 +107,35 @@ class _Store:
         self.many: list[FloatArray] = []
         self.weights: list[FloatArray] = []
         self._how = bands, kind, padded
-        self._known: dict[tuple[Path, float], tuple[int, ...]] = {}
+        self._known: dict[tuple, tuple[int, ...]] = {}
 
-    def add(self, use: PictureUse) -> tuple[int, ...]:
-        """Return the first texel, width, height, kind, and row of weights of a picture."""
-        key = use.file, use.gamma
+    def add(self, use: PictureUse, spectrum: Spectrum) -> tuple[int, ...]:
+        """Return the first texel, width, height, kind, and row of weights of a picture times a spectrum."""
+        key = use.file, use.gamma, spectrum.wavelengths.tobytes(), spectrum.values.tobytes()
         if key not in self._known:
-            picture = read_picture(*key)
+            picture = read_picture(use.file, use.gamma)
+            weights = picture.weights(*self._how[:2]) * spectrum.in_bands(*self._how[:2])
             height, width, channels = picture.texels.shape
             kept, into = (1, self.few) if channels <= _FEW else (2, self.many)
             first = sum(len(block) for block in into)
             self._known[key] = first, width, height, kept, len(self.weights) * _FEW
-            into.append(_as_stored(picture, *self._how))
-            self.weights.append(_weights(picture, *self._how))
+            into.append(_as_stored(picture, weights, self._how[2]))
+            self.weights.append(_few_weights(weights, self._how[2]))
         return self._known[key]
 
 
-def _as_stored(picture: Picture, bands: Bands, kind: BandKind, padded: int) -> FloatArray:
+def _as_stored(picture: Picture, weights: FloatArray, padded: int) -> FloatArray:
     """Return (texels, numbers) of a picture: its few channels, or its bands."""
     flat = picture.texels.reshape(-1, picture.texels.shape[2])
     if flat.shape[1] > _FEW:
-        flat = flat @ picture.weights(bands, kind).astype(np.float32)
+        flat = flat @ weights.astype(np.float32)
         return np.pad(flat, ((0, 0), (0, padded - flat.shape[1])))
     return np.pad(flat, ((0, 0), (0, _FEW - flat.shape[1])))
 
 
-def _weights(picture: Picture, bands: Bands, kind: BandKind, padded: int) -> FloatArray:
-    weights = picture.weights(bands, kind)[:_FEW]
-    return np.pad(weights, ((0, _FEW - len(weights)), (0, padded - weights.shape[1])))
+def _few_weights(weights: FloatArray, padded: int) -> FloatArray:
+    few = weights[:_FEW]
+    return np.pad(few, ((0, _FEW - len(few)), (0, padded - few.shape[1])))
 
 
 def _bands(table, row, packets: int) -> list:
@@ -143,5 +144,4 @@ def _bands(table, row, packets: int) -> list:
 
 
 def _table(blocks) -> Any:
-    flat = np.concatenate([np.ravel(block) for block in blocks]) if blocks else np.zeros(_FEW)
-    return mi.Float(flat.astype(np.float32))
+    return floats(np.concatenate([np.ravel(block) for block in blocks]) if blocks else np.zeros(_FEW))

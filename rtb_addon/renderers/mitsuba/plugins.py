@@ -1,4 +1,8 @@
-"""Materials that stock Mitsuba lacks, as plugins; register() makes them known to plain Mitsuba as well."""
+"""
+Materials, textures and emitters that stock Mitsuba lacks, as plugins.
+
+register() makes them known to plain Mitsuba as well.
+"""
 
 from __future__ import annotations
 
@@ -6,6 +10,7 @@ from types import ModuleType
 
 from .blend import blend_plugin
 from .picture_plugin import picture_plugin
+from .sky_plugin import sky_plugin
 from .ward import ward_plugin
 
 _registered: set[str] = set()
@@ -18,4 +23,5 @@ def register(mi: ModuleType) -> None:
         mi.register_bsdf("ward", ward_plugin(mi))
         mi.register_bsdf("fairblend", blend_plugin(mi))
         mi.register_texture("picture", picture_plugin(mi))
+        mi.register_emitter("skypicture", sky_plugin(mi))
         _registered.add(mi.variant())

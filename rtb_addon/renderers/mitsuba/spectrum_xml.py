@@ -82,6 +82,11 @@ def comment(sentence: str) -> Xml.Element:
     return cast("Xml.Element", node)
 
 
+def plugin_remark(place: str) -> Xml.Element:
+    """Return the comment that stands before what plain Mitsuba cannot load."""
+    return comment(f"{place} needs a plugin of ours, rtb_addon.renderers.mitsuba.plugins registers it")
+
+
 def properties(node: Xml.Element) -> dict[str, str]:
     """Return the plain properties of an element, as text."""
     return {child.get("name", ""): child.get("value", "") for child in node if child.get("value") is not None}

@@ -14,9 +14,11 @@ import mitsuba as mi
 import numpy as np
 
 from ...spectra import BandKind, Bands, FloatArray, Spectrum
+from .arrays import floats
 from .lobes import Lobe
 from .one_hot import Emitter, OneHotScene
 from .pictures import Pictures
+from .sky_sampling import axes_of, uv_of
 
 _NO_METAL = Lobe(Spectrum.constant(1.0))
 _VOID = (Spectrum.constant(0.0), Spectrum.constant(0.0))
@@ -35,6 +37,7 @@ class Tables:
     padded_bands : number of bands, rounded up to whole packets; the rest are zero
     lobes : most spectra that a material has
     pictures : those of the scene's lobes
+    sky : the picture that is around the scene, by its emitter
     metals : most lobes of metals that a material has; they are its first
     beams : whether some emitter is a spot
     suns : number of emitters that are discs in the sky
@@ -48,9 +51,14 @@ class Tables:
         self.beams = any(emitter.outer > -2 for emitter in emitters)
         self.suns = sum(emitter.narrowness > 0 for emitter in emitters)
         # Many scenes have one lamp: its spectrum is then multiplied once a path instead of twice a bounce.
-        self.single = len(emitters) == 1 and self.suns == 0
+        pictured = [emitter for emitter in emitters if emitter.picture is not None]
+        self.single = len(emitters) == 1 and self.suns == 0 and not pictured
         self._fill(source, emitters, bands, kind)
         self.pictures = _pictures(source, bands, kind, self.padded_bands)
+        shown = [Lobe(each.spectrum, picture=each.picture) for each in emitters]
+        self.sky = Pictures(shown, bands, kind, self.padded_bands)
+        turn = pictured[0].turn if pictured else np.eye(3)
+        self._sky_axes = axes_of(turn)
         self._bsdf_rows = _rows_by_pointer(
             {shape.bsdf().id(): mi.BSDFPtr(shape.bsdf()) for shape in scene.shapes()}, source.materials
         )
@@ -73,23 +81,35 @@ class Tables:
         # Light sampling aims anywhere in a disc: irradiance becomes radiance times solid angle.
         gains = [2 / (2 - emitter.narrowness) for emitter in emitters]
         glows = [in_bands(emitter.spectrum) * gain for emitter, gain in zip(emitters, gains, strict=True)]
-        self._reflectances = _table(rows)
-        self._indices = _table(indices)
+        self._reflectances = floats(rows)
+        self._indices = floats(indices)
         self._is_metal = mi.Bool(np.ravel(metals) if self.metals else [False])
-        self._emissions = _table(glows)
-        self._beams = _table([[*e.axis, e.outer, _steepness(e), e.narrowness, 0.0, 0.0] for e in emitters])
+        self._emissions = floats(glows)
+        self._beams = floats([[*e.axis, e.outer, _steepness(e), e.narrowness, 0.0, 0.0] for e in emitters])
         suns = [(e, glow) for e, glow in zip(emitters, glows, strict=True) if e.narrowness > 0]
-        self._sun_radiances = _table([glow / (2 * math.pi * e.narrowness) for e, glow in suns])
-        self._sun_narrowness = _table([e.narrowness for e, _ in suns])
-        self._sun_directions = _table([np.negative(e.axis) for e, _ in suns])
+        self._sun_radiances = floats([glow / (2 * math.pi * e.narrowness) for e, glow in suns])
+        self._sun_narrowness = floats([e.narrowness for e, _ in suns])
+        self._sun_directions = floats([np.negative(e.axis) for e, _ in suns])
 
     def emitter_row(self, emitter, active) -> Any:
         """Return the row of each emitter."""
         return dr.gather(mi.UInt32, self._emitter_rows, _number(emitter), active)
 
-    def emission(self, row, active) -> list | None:
-        """Return an emitter's spectrum, one mi.Float a band; None where there is one emitter only."""
-        return None if self.single else self._bands(self._emissions, row, active)
+    def emission(self, row, towards, active) -> list | None:
+        """
+        Return an emitter's spectrum, one mi.Float a band; None where there is one even emitter only.
+
+        Parameters
+        ----------
+        towards : directions in which the emitters are seen, for pictures of the sky
+        """
+        if self.single:
+            return None
+        plain = self._bands(self._emissions, row, active)
+        if not self.sky.any:
+            return plain
+        local = mi.Vector3f(*(dr.dot(axis, towards) for axis in self._sky_axes))
+        return self.sky.reflectance(row, uv_of(local), plain, active)
 
     def in_the_end(self, radiance: list) -> list:
         """Return what paths have gathered, times the spectrum of the only emitter, left out so far."""
@@ -168,12 +188,6 @@ def _fresnel(cosine, eta, k):
 def _steepness(emitter: Emitter) -> float:
     width = emitter.inner - emitter.outer
     return min(_HARD, 1 / width) if width > 0 else _HARD
-
-
-def _table(rows) -> Any:
-    """Return numbers in memory, so that no kernel depends on them."""
-    flat = np.asarray(rows, np.float32).ravel()
-    return mi.Float(flat if len(flat) else np.zeros(1, np.float32))
 
 
 def _number(pointer) -> Any:

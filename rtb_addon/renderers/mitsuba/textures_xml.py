@@ -15,6 +15,9 @@ from .spectrum_xml import element, format_spectrum
 Span = tuple[float, float]
 _FILTERS = {"nearest": "nearest", "bilinear": "bilinear", "trilinear": "bilinear", "ewa": "bilinear"}
 WRAPS = ("repeat", "mirror", "clamp")
+# The sky goes around: it repeats across, and ends at top and bottom.
+AROUND = "around"
+ALL_WRAPS = (*WRAPS, AROUND)
 
 
 def texture(one: Texture, name: str, span: Span, folder: Path) -> Xml.Element:

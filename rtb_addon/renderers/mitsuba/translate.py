@@ -22,7 +22,8 @@ from ..interface import Extras
 from ..native_lines import integrator_with
 from ..ply import write_mesh
 from .camera_xml import matrix, sensor
-from .lights_xml import BLACK, environment, light
+from .environment_xml import environment
+from .lights_xml import BLACK, light
 from .lobes import take_lobes
 from .materials_xml import materials, texture_of
 from .names import Names
@@ -64,7 +65,7 @@ def scene_xml(scene: RenderScene, integrator: Integrator, folder: Path) -> Xml.E
     for lamp in scene.lights:
         root.extend(light(lamp, names, span))
     if scene.environment is not None:
-        root.extend(environment(scene.environment, names, span))
+        root.extend(environment(scene.environment, names, span, folder))
     return root
 
 
