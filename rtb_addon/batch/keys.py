@@ -9,9 +9,10 @@ from __future__ import annotations
 import dataclasses
 import hashlib
 import json
+import os
 from collections.abc import Mapping
 from contextlib import suppress
-from functools import cache
+from functools import cache, lru_cache
 from pathlib import Path
 from typing import Any, NamedTuple
 
@@ -27,9 +28,11 @@ from ..recipe.remodeler import digest_of
 from ..scene.adjustments import Adjustments
 
 # Raised when the way from a folder to a RenderScene changes what comes out.
-ENGINE = 1
+ENGINE = 2
 # Where something was said, or that it was odd, does not change what was said.
 _UNSAID = {"file", "line", "remarks"}
+# A family says them once for all its conditions, or nearly.
+_words_of = lru_cache(maxsize=16)(section_words)
 
 
 class Key(NamedTuple):
@@ -82,8 +85,8 @@ def key_of(recipe: Recipe, condition: Condition) -> Key:
         "row": dict(condition.cells),
         "mappings": applied,
         "files": files,
-        "options": section_words(options),
-        "conventions": section_words(recipe.conventions),
+        "options": _words_of(options),
+        "conventions": _words_of(recipe.conventions),
         **versions,
     }
     if remodeler:
@@ -117,8 +120,10 @@ def _plain(value: Any, folder: str) -> Any:
         return [_plain(each, folder) for each in value]
     if isinstance(value, np.ndarray):
         return value.tolist()
-    if isinstance(value, str | Path):
-        return str(value).replace(folder, "")
+    if isinstance(value, Path):
+        return value.as_posix().removeprefix(Path(folder).as_posix() + "/")
+    if isinstance(value, str):
+        return value.replace(folder + os.sep, "")
     return value
 
 

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import json
+import os
 import tomllib
 from collections.abc import Mapping
 from datetime import UTC, datetime
@@ -11,7 +12,7 @@ from pathlib import Path
 from typing import Any
 
 from ..conditions import Condition
-from ..exr import is_whole
+from ..exr import texts_of_whole
 from ..files import write_text
 from ..recipe import Recipe
 from ..recipe.options import section_words
@@ -62,16 +63,11 @@ def attributes(record: Mapping[str, Any]) -> dict[str, str]:
 
 def key_in(cube: Path) -> str | None:
     """Return the key that is written in a cube, None when there is none or the file is not whole."""
-    import OpenEXR
-
     try:
-        if not is_whole(cube):
-            return None
-        with OpenEXR.File(str(cube), header_only=True) as file:
-            key = file.header().get("rtb.key")
-    except (OSError, RuntimeError):
+        texts = texts_of_whole(cube)
+    except OSError:
         return None
-    return key if isinstance(key, str) else None
+    return None if texts is None else texts.get("rtb.key")
 
 
 def write(file: Path, record: Mapping[str, Any]) -> None:
@@ -89,8 +85,9 @@ def read(file: Path) -> dict[str, Any]:
 
 
 def note(folder: Path, what: str, **words: Any) -> None:
-    """Append a line to a recipe's log."""
+    """Append a line to a recipe's log, in which files of its folder go by their names there."""
     line = json.dumps({"when": _now(), "what": what, **words}, ensure_ascii=False)
+    line = line.replace(json.dumps(f"{folder}{os.sep}", ensure_ascii=False)[1:-1], "")
     with (folder / LOG).open("a+b") as log:
         # A process that was killed may have left half a line; ours begins a new one.
         log.seek(max(log.tell() - 1, 0))

@@ -133,7 +133,8 @@ class Recipe:
         return self.lately(("options", condition.name), lambda: self._options_of(condition))
 
     def _options_of(self, condition: Condition) -> RecipeOptions:
-        chosen = self.said_for(condition)
+        if not (chosen := self.said_for(condition)):
+            return self.options
         try:
             return replace(self.options, **chosen)
         except ValueError as error:

@@ -69,6 +69,16 @@ def test_a_family_is_rendered_and_each_cube_says_where_it_comes_from(write_famil
     assert str(recipe.folder) not in json.dumps(record)
 
 
+def test_records_and_the_log_name_files_as_the_folder_does(write_family):
+    recipe = write_family({"a": "grey.spd"}, resources={"grey.spd": b"300 0.5\n800 0.5\n"})
+    rendered(recipe)
+    record, log = recipe.record_file(recipe.conditions["a"]).read_text(), recipe.folder / "log.jsonl"
+    assert '"found": "resources/grey.spd"' in record
+    done = [json.loads(line) for line in log.read_text().splitlines() if '"done"' in line]
+    assert [line["file"] for line in done] == ["renderings/plain/a.exr"]
+    assert str(recipe.folder) not in record + log.read_text()
+
+
 def test_the_renderings_folder_holds_cubes_and_records_and_nothing_else(write_family):
     recipe = write_family({"a": "0.8"})
     rendered(recipe)
