@@ -43,6 +43,7 @@ def _parser() -> argparse.ArgumentParser:
     _add_check(verb.add_parser("check", help="say everything that is wrong with a recipe"))
     _add_import(verb.add_parser("import", help="make a recipe folder of RenderToolbox3's files"))
     _add_montage(verb.add_parser("montage", help="make one picture of all renderings"))
+    _add_compare(verb.add_parser("compare", help="say how far two renderers' pictures lie apart"))
     _add_pack(verb.add_parser("pack", help="put a recipe and all files that it names into one zip"))
     _add_unpack(verb.add_parser("unpack", help="make a recipe's folder of such a zip"))
     renderers = verb.add_parser("renderers", help="say which renderers are installed, and why not")
@@ -104,6 +105,18 @@ def _add_montage(montage: argparse.ArgumentParser) -> None:
     montage.set_defaults(verb=verbs.montage)
 
 
+def _add_compare(compare: argparse.ArgumentParser) -> None:
+    compare.add_argument("folder", type=Path, metavar="FOLDER", help="of the recipe")
+    compare.add_argument(
+        "--renderers", type=_two_names, required=True, metavar="A,B", help="A minus B is what is shown"
+    )
+    compare.add_argument(
+        "--conditions", type=_names, metavar="A,B", help="names of those to compare, else all"
+    )
+    compare.add_argument("--json", action="store_true", help="print a line of JSON for each condition")
+    compare.set_defaults(verb=verbs.compare)
+
+
 def _add_pack(pack: argparse.ArgumentParser) -> None:
     pack.add_argument("folder", type=Path, metavar="FOLDER", help="of the recipe")
     pack.add_argument("file", type=Path, metavar="FILE.zip", help="the zip to write")
@@ -130,6 +143,13 @@ def _add_trust(parser: argparse.ArgumentParser) -> None:
 
 def _names(text: str) -> list[str]:
     return [name for name in text.split(",") if name]
+
+
+def _two_names(text: str) -> list[str]:
+    names = [name.lower() for name in _names(text)]
+    if len(names) != 2:
+        raise argparse.ArgumentTypeError(f"{text} are no two renderers, want A,B")
+    return names
 
 
 def _positive(text: str) -> int:

@@ -13,6 +13,7 @@ from contextlib import suppress
 from . import renderers
 from .background import Event
 from .batch import render_recipe
+from .compare import COLUMNS, compare_renderers, table
 from .errors import RecipeError
 from .lifeline import watch_parent
 from .old_recipes import import_recipe
@@ -103,6 +104,18 @@ def montage(said: Namespace) -> int:
         return FAILED
     for file in made:
         print(file)
+    return 0
+
+
+def compare(said: Namespace) -> int:
+    """Say how far two renderers' cubes lie apart."""
+    made = []
+    for each in compare_renderers(said.folder, *said.renderers, said.conditions):
+        made.append(each)
+        if said.json:
+            print(json.dumps(dict(zip(COLUMNS, each.numbers, strict=True))), flush=True)
+    if not said.json:
+        print(table(made), end="")
     return 0
 
 

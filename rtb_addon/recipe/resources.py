@@ -16,7 +16,7 @@ from ..spectra.files import spd_text
 from ..spectra.library import served
 
 # What a batch writes itself; a file there never stands in for one of the recipe.
-GENERATED = {"scenes", "renderings", "layers", "images"}
+GENERATED = {"scenes", "renderings", "layers", "images", "comparisons"}
 
 
 class Resources:

@@ -17,6 +17,7 @@ FLOORS = {
     "rtb_addon/viewer.py": 5,
     "rtb_addon/worker.py": 5,
     "rtb_addon/old_recipes.py": 5,
+    "rtb_addon/compare.py": 5,
     "rtb_addon/montage.py": 4,
     "rtb_addon/renderers": 4,
     "rtb_addon/recipe": 4,
