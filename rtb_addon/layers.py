@@ -34,6 +34,7 @@ PARTS: Mapping[str, tuple[tuple[str, ...] | None, str]] = {
     "standard_error": (None, UNIT),
 }
 NAMES = tuple(PARTS)
+ERROR = "standard_error"  # comes with a rendering itself, the others from a renderer's layers()
 _PREFIX = "rtb."
 
 

@@ -8,24 +8,15 @@ from pathlib import Path
 from typing import Any
 
 from ..errors import RecipeError
-from ..layers import Layers
+from ..layers import ERROR, Layers
 from ..recipe.options import RecipeOptions
-from ..renderers.interface import Renderer, RenderOptions, Report
+from ..renderers.interface import RenderOptions, Report
 from ..spectral_image import SpectralImage
-
-ERROR = "standard_error"  # comes with the rendering itself; a renderer's layers() has the others
 
 
 def render_options(options: RecipeOptions, threads: int, gpu: bool = False) -> RenderOptions:
     """Return what a recipe says of how to render that no native scene holds."""
     return RenderOptions(threads, options.until_seconds, options.until_error, ERROR in options.layers, gpu)
-
-
-def refuse_layers(renderer: Renderer, names: Sequence[str]) -> None:
-    """Raise where a renderer knows no layers and a recipe wants some."""
-    if set(names) - {ERROR} and not hasattr(renderer, "layers"):
-        wanted = ", ".join(names)
-        raise RecipeError(f"layers are {wanted}, the renderer {renderer.name} knows none, leave them empty")
 
 
 def layers_of(

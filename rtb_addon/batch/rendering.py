@@ -17,6 +17,7 @@ from ..recipe import Recipe
 from ..recipe.condition_scene import (
     adjustments_of,
     lacks,
+    refuse_layers,
     remaining_lines,
     remodeled_parent,
     renderer_of,
@@ -26,7 +27,7 @@ from ..recipe.remodeler import Hook, remodeled
 from ..renderers.interface import Report
 from ..spectral_image import SpectralImage
 from . import records
-from .beside import layers_of, refuse_layers, render_options
+from .beside import layers_of, render_options
 from .keys import Key, key_of, plain
 
 SCRATCH = ".unfinished"  # where cubes are written before they take their place
@@ -94,7 +95,7 @@ def render_condition(
         raise RecipeError(missing[0])
     extras = remaining_lines(recipe, condition, resolved.extras)
     renderer = renderer_of(recipe, options.renderer)
-    refuse_layers(renderer, options.layers)
+    refuse_layers(renderer, options)
     folder = recipe.scenes_folder / options.renderer
     native = renderer.translate(resolved.scene, extras, folder, name)
     ready = time.monotonic()

@@ -9,6 +9,7 @@ from typing import TYPE_CHECKING
 
 from .. import renderers
 from ..errors import RecipeError
+from ..layers import ERROR
 from ..renderers.fidelity import TABLE, unsupported
 from ..renderers.interface import Renderer
 from ..renderers.native_lines import refused
@@ -20,6 +21,7 @@ from ..scene.resolve import Resolved, SceneSettings, resolve
 if TYPE_CHECKING:
     from ..conditions import Condition
     from . import Recipe
+    from .options import RecipeOptions
 
 FindFile = Callable[[str], Path | None]
 
@@ -69,6 +71,13 @@ def lacks(renderer: str, scene: RenderScene) -> list[str]:
     if not any(renderer in row for row in TABLE.values()):
         return []  # one of somebody else's, which must say so itself
     return unsupported(scene, renderer)
+
+
+def refuse_layers(renderer: Renderer, options: RecipeOptions) -> None:
+    """Raise where a renderer knows no layers and the options want some."""
+    if set(options.layers) - {ERROR} and not hasattr(renderer, "layers"):
+        wanted = ", ".join(options.layers)
+        raise RecipeError(f"layers are {wanted}, the renderer {renderer.name} knows none, leave them empty")
 
 
 def refused_lines(recipe: Recipe, condition: Condition, lines: Sequence[NativeLine]) -> list[RecipeError]:

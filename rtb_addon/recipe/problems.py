@@ -11,6 +11,7 @@ from ..errors import RecipeError
 from .condition_scene import (
     adjustments_of,
     lacks,
+    refuse_layers,
     refused_lines,
     remodeled_parent,
     renderer_of,
@@ -104,6 +105,7 @@ def _condition_findings(recipe: Recipe, condition: Condition, foresight: Foresig
         name = recipe.options_of(condition).renderer
         if (reason := _missing(recipe, name)) is not None:
             yield Finding(RecipeError(f"the renderer {name} cannot be used here: {reason}"))
+        refuse_layers(renderer_of(recipe, name), recipe.options_of(condition))
         if recipe.remodeler is None and code_of(recipe) is not None:
             adjustments_of(recipe, condition, recipe.find_file)
             return

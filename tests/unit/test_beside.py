@@ -6,7 +6,6 @@ import numpy as np
 import pytest
 
 from rtb_addon.batch import render_condition, render_recipe
-from rtb_addon.batch.beside import refuse_layers
 from rtb_addon.errors import RecipeError
 from rtb_addon.layers import Layers
 from rtb_addon.recipe import Recipe
@@ -47,13 +46,12 @@ def test_a_recipe_that_wants_no_layers_gets_no_file(write_family):
     assert not (recipe.folder / "layers").exists()
 
 
-def test_a_renderer_that_knows_no_layers_says_so(write_family):
-    class Blind:
-        name = "blind"
-
-    refuse_layers(Blind(), ("standard_error",))
-    with pytest.raises(RecipeError, match="layers are depth, the renderer blind knows none"):
-        refuse_layers(Blind(), ("depth",))
+def test_check_and_render_say_that_a_renderer_knows_no_layers(write_family):
+    recipe = write_family({"a": "0.8"}, renderer="sphere", layers=("depth",))
+    sentence = "layers are depth, the renderer sphere knows none, leave them empty"
+    assert sentence in map(str, recipe.problems())
+    with pytest.raises(RecipeError):
+        render_condition(recipe, "a")
 
 
 def test_when_a_rendering_is_to_end_reaches_the_renderer_and_the_record(write_family):
