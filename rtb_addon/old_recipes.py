@@ -21,7 +21,7 @@ from .recipe import CONDITIONS, Recipe, write_recipe
 from .recipe.named_files import texture_names
 from .recipe.options import Conventions, MontageOptions, RecipeOptions
 from .recipe.resources import leads_outside, listed
-from .scene.archives import is_archive, read_archive
+from .scene.archives import files_beside, is_archive, read_archive
 from .scene.document import Scene
 from .spectra.library import served
 
@@ -159,9 +159,11 @@ class _Wanted:
         return self.found.get(name)
 
     def of_parent(self, parent: Path) -> None:
-        """Find the textures of a parent scene."""
+        """Find the textures of a parent scene that its archive does not hold."""
+        held = {PurePosixPath(name).name for name in files_beside(parent)}
         for name in texture_names(parent):
-            self.find(name)
+            if PurePosixPath(unquote(name)).name not in held:
+                self.find(name)
 
     def of_family(self, document: Scene, conditions: Conditions, mappings: Mappings) -> None:
         """Find what the rows of a table and the mappings that apply to them name."""

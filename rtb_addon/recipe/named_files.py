@@ -12,6 +12,7 @@ from typing import TYPE_CHECKING
 
 from .. import renderers
 from ..errors import RecipeError
+from ..scene.archives import is_archive, read_archive
 
 if TYPE_CHECKING:
     from ..conditions import Condition
@@ -78,5 +79,6 @@ def texture_names(parent: Path) -> list[str]:
 @cache
 def _texture_names(file: Path, size: int, time: int) -> list[str]:
     """Return the names in a file; size and time only tell when to look again."""
-    found = _TEXTURE.findall(file.read_bytes())
+    content = file.read_bytes()
+    found = _TEXTURE.findall(read_archive(content, file).scene if is_archive(content) else content)
     return sorted({unescape(name.decode(errors="replace")) for name in found})

@@ -8,6 +8,7 @@ from typing import Any
 
 from ..conditions import Conditions, parse_conditions
 from ..errors import RecipeError
+from ..scene.archives import is_archive, read_archive
 from ..scene.document import Scene
 from . import CONDITIONS, PARENT, Recipe, write_recipe
 from .options import Conventions, MontageOptions, RecipeOptions
@@ -32,7 +33,7 @@ def new_recipe(
 
     Parameters
     ----------
-    parent : the parent scene, Collada 1.4.1, or the file that holds it
+    parent : the parent scene, Collada 1.4.1, or the file that holds it; a .zae's pictures become resources
     conditions, mappings : texts of these files; empty: one condition, nothing changed
     resources : contents of files by their names below resources/
     options : of RecipeOptions, such as width=64 or renderer="tracer"
@@ -47,6 +48,10 @@ def new_recipe(
     name = folder.absolute().name
     content = parent if isinstance(parent, bytes) else _bytes_of(Path(parent))
     Scene.parse(content, PARENT)
+    packed: dict[str, bytes] = {}
+    if is_archive(content):
+        archive = read_archive(content, PARENT)
+        content, packed = archive.scene, archive.beside_the_scene()
     return write_recipe(
         folder,
         name,
@@ -56,7 +61,7 @@ def new_recipe(
         content,
         parse_conditions(conditions, CONDITIONS, name) if conditions else Conditions.single(name),
         mappings,
-        resources or {},
+        {**packed, **(resources or {})},
         {},
     )
 

@@ -10,10 +10,10 @@ import zipfile
 from collections.abc import Iterator
 from pathlib import Path
 
+from ..archive_rules import wrongs
 from ..errors import RecipeError
 from ..files import replacing
 from . import Recipe
-from .archive_rules import wrongs
 from .locks import NAME as LOCK
 from .named_files import NamedFiles
 from .resources import GENERATED

@@ -6,12 +6,14 @@ import os
 import shutil
 import tempfile
 import weakref
+from contextlib import suppress
 from functools import cached_property
 from pathlib import Path, PurePosixPath, PureWindowsPath
 from urllib.parse import unquote
 
 from ..errors import RecipeError
-from ..files import write_text
+from ..files import write_bytes
+from ..scene.archives import files_beside
 from ..spectra.files import spd_text
 from ..spectra.library import served
 
@@ -26,22 +28,25 @@ class Resources:
     Attributes
     ----------
     served : names of the files that came from the library
+    unpacked : names of the files that came out of a parent scene's .zae
     """
 
     def __init__(self, folder: Path) -> None:
         self.folder = folder
         self.served: list[str] = []
+        self.unpacked: list[str] = []
         self._found: dict[str, Path | None] = {}
 
     def find(self, name: str) -> Path | None:
         """
         Return the file of a name, or None: resources/ first, then the folder, then by base name in it.
 
-        Spectra that RenderToolbox3 served, such as D65.spd, are written into resources/ with a warning.
+        Spectra that RenderToolbox3 served, such as D65.spd, and pictures that lie in a parent scene's .zae,
+        are written into resources/ with a warning.
         A name that leads out of the folder finds a file of its base name inside, or raises.
         """
         if name not in self._found:
-            self._found[name] = self._inside(name) or self._served(name)
+            self._found[name] = self._inside(name) or self._unpacked(name) or self._served(name)
             if self._found[name] is None:
                 refuse_outside(name)
         return self._found[name]
@@ -49,9 +54,11 @@ class Resources:
     @property
     def warnings(self) -> list[str]:
         """What somebody should know about where files came from, a sentence each."""
-        if not self.served:
-            return []
-        return [f"the library's own went into resources/ for what the recipe lacked: {listed(self.served)}"]
+        origins = {
+            "the library's own went into resources/ for what the recipe lacked": self.served,
+            "files of a .zae went into resources/": self.unpacked,
+        }
+        return [f"{origin}: {listed(names)}" for origin, names in origins.items() if names]
 
     def _inside(self, name: str) -> Path | None:
         for plain in dict.fromkeys((name.replace("\\", "/"), unquote(name.removeprefix("file://")))):
@@ -84,12 +91,33 @@ class Resources:
         if (spectrum := served(name)) is None:
             return None
         self.served.append(name)
-        file, text = PureWindowsPath(name).name, spd_text(spectrum)
+        return self._brought(PureWindowsPath(name).name, spd_text(spectrum).encode())
+
+    def _unpacked(self, name: str) -> Path | None:
+        file = PureWindowsPath(unquote(name)).name
+        if (archive := self._archived.get(file)) is None:
+            return None
+        self.unpacked.append(f"{file} of {archive.name}")
+        packed = {PurePosixPath(path).name: content for path, content in files_beside(archive).items()}
+        return self._brought(file, packed[file])
+
+    @cached_property
+    def _archived(self) -> dict[str, Path]:
+        """The archives that hold files, by their base names."""
+        found: dict[str, Path] = {}
+        for file in self._by_base_name.values():
+            if file.suffix.lower() == ".zae":
+                with suppress(RecipeError):  # what is wrong with it is for its reader to say
+                    found = {PurePosixPath(name).name: file for name in files_beside(file)} | found
+        return found
+
+    def _brought(self, file: str, content: bytes) -> Path:
+        """Write a file into resources/ and return it."""
         try:
-            write_text(self.folder / "resources" / file, text)
+            write_bytes(self.folder / "resources" / file, content)
             return self.folder / "resources" / file
         except RecipeError:  # a recipe that may only be read can still be checked
-            write_text(self._elsewhere / file, text)
+            write_bytes(self._elsewhere / file, content)
             return self._elsewhere / file
 
     @cached_property

@@ -15,11 +15,11 @@ from contextlib import contextmanager
 from pathlib import Path, PurePosixPath
 from zipfile import ZipFile, ZipInfo
 
+from ..archive_rules import wrongs
 from ..errors import RecipeError, at
 from ..files import temporary_prefix, umask
 from ..scene.document import Scene
 from . import Recipe
-from .archive_rules import wrongs
 from .locks import NAME as LOCK
 from .packing import CHECKSUMS
 from .words import RECIPE

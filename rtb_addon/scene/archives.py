@@ -2,20 +2,19 @@
 
 from __future__ import annotations
 
-import stat
 import zipfile
+import zlib
 from collections.abc import Mapping
 from io import BytesIO
-from pathlib import Path, PurePosixPath, PureWindowsPath
+from pathlib import Path, PurePosixPath
 from typing import NamedTuple
 from urllib.parse import unquote
 
+from ..archive_rules import wrongs
 from ..errors import RecipeError
 
+MOST_BYTES = 2 << 30  # that a scene and its pictures may take in memory
 _MANIFEST = "manifest.xml"
-# What an archive may hold at most: files, and bytes of all of them [B].
-_FILES, _BYTES = 10_000, 2**31
-_CHUNK = 2**20
 
 
 class Archive(NamedTuple):
@@ -48,56 +47,30 @@ def is_archive(data: bytes) -> bool:
     return data.startswith(b"PK\x03\x04")
 
 
+def files_beside(scene: Path) -> dict[str, bytes]:
+    """Return the files that a parent scene's archive holds for it; none where it is no archive."""
+    with scene.open("rb") as content:
+        if not is_archive(start := content.read(4)):
+            return {}
+        return read_archive(start + content.read(), scene).beside_the_scene()
+
+
 def read_archive(data: bytes, file: str | Path) -> Archive:
     """Return what an archive holds; one sentence for links, ways out of it, and more than it admits."""
     try:
         with zipfile.ZipFile(BytesIO(data)) as archive:
-            files = _files(archive, file)
-    except (zipfile.BadZipFile, NotImplementedError, EOFError, OSError) as error:
+            files = _files(archive, len(data), file)
+    except (zipfile.BadZipFile, zlib.error, NotImplementedError, EOFError, OSError) as error:
         raise RecipeError(f"this is no readable zip: {error}", file) from error
     name = _main_scene(files, file)
     return Archive(name, files.pop(name), files)
 
 
-def _files(archive: zipfile.ZipFile, file: str | Path) -> dict[str, bytes]:
-    entries = [each for each in archive.infolist() if not each.is_dir()]
-    if len(entries) > _FILES or sum(each.file_size for each in entries) > _BYTES:
-        raise RecipeError(
-            f"it holds more than {_FILES} files or {_BYTES >> 20} MiB, unpack it yourself", file
-        )
-    found: dict[str, bytes] = {}
-    left = _BYTES
-    for each in entries:
-        name = _safe_name(each, file)
-        if name in found:
-            raise RecipeError(f"it holds two files called {name}", file)
-        found[name] = _content(archive, each, left, file)
-        left -= len(found[name])
-    return found
-
-
-def _safe_name(entry: zipfile.ZipInfo, file: str | Path) -> str:
-    name = entry.filename
-    outside = PurePosixPath(name).is_absolute() or PureWindowsPath(name).drive or "\\" in name
-    if outside or ".." in PurePosixPath(name).parts:
-        raise RecipeError(f"'{name}' in it leads outside, pack it anew", file)
-    if stat.S_ISLNK(entry.external_attr >> 16):
-        raise RecipeError(f"'{name}' in it is a link, pack the file itself", file)
-    if entry.flag_bits & 1:
-        raise RecipeError(f"'{name}' in it is encrypted, pack it without a password", file)
-    return str(PurePosixPath(name))
-
-
-def _content(archive: zipfile.ZipFile, entry: zipfile.ZipInfo, most: int, file: str | Path) -> bytes:
-    """Return an entry's bytes, which may be more than it says itself."""
-    chunks: list[bytes] = []
-    with archive.open(entry) as opened:
-        while chunk := opened.read(_CHUNK):
-            chunks.append(chunk)
-            most -= len(chunk)
-            if most < 0:
-                raise RecipeError(f"it unpacks to more than {_BYTES >> 20} MiB, unpack it yourself", file)
-    return b"".join(chunks)
+def _files(archive: zipfile.ZipFile, size: int, file: str | Path) -> dict[str, bytes]:
+    members = archive.infolist()
+    if (wrong := next(wrongs(size, members, MOST_BYTES), None)) is not None:
+        raise RecipeError(wrong, file)
+    return {str(PurePosixPath(each.filename)): archive.read(each) for each in members if not each.is_dir()}
 
 
 def _main_scene(files: Mapping[str, bytes], file: str | Path) -> str:

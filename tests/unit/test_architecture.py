@@ -36,6 +36,7 @@ FLOORS = {
     "rtb_addon/curves.py": 2,
     "rtb_addon/designs.py": 2,
     "rtb_addon/exr.py": 2,
+    "rtb_addon/archive_rules.py": 1,
     "rtb_addon/background.py": 1,
     "rtb_addon/consent.py": 1,
     "rtb_addon/digits.py": 1,

@@ -8,9 +8,10 @@ import pytest
 from hypothesis import HealthCheck, given, settings
 from hypothesis import strategies as st
 
+from rtb_addon import archive_rules
 from rtb_addon.__main__ import main
 from rtb_addon.errors import RecipeError
-from rtb_addon.recipe import Recipe, archive_rules
+from rtb_addon.recipe import Recipe
 from rtb_addon.recipe.cleaning import clean_recipe
 from rtb_addon.recipe.new import new_recipe
 from rtb_addon.recipe.packing import CHECKSUMS, pack_recipe

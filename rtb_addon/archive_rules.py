@@ -1,4 +1,4 @@
-"""What an archive may hold: plain files inside one folder, of a size that somebody meant."""
+"""What a zip may hold, a recipe's or a scene's: plain files in one folder, of a size that somebody meant."""
 
 from __future__ import annotations
 
@@ -20,19 +20,26 @@ _RESERVED = re.compile(r"(con|prn|aux|nul|conin\$|conout\$|(com|lpt)[0-9¹²³])
 _ENCRYPTED = 0x1
 
 
-def wrongs(size: int, members: Sequence[ZipInfo]) -> Iterator[str]:
-    """Yield a sentence for everything about an archive of a size [bytes] that is not as it should be."""
+def wrongs(size: int, members: Sequence[ZipInfo], most_bytes: int | None = None) -> Iterator[str]:
+    """
+    Yield a sentence for everything about an archive that is not as it should be.
+
+    Parameters
+    ----------
+    size : of the archive [bytes]
+    most_bytes : that may come out of it; None: of a recipe
+    """
     if len(members) > MOST_FILES:
-        yield f"it holds {len(members)} files, a recipe holds {MOST_FILES} at most"
+        yield f"it holds {len(members)} files, {MOST_FILES} at most can be unpacked"
     for member in members:
         if wrong := _wrong_name(member) or _wrong_kind(member):
             yield f"{member.orig_filename[:80]!r} {wrong}"
     yield from _clashes(members)
     yield from _overlaps(members)
-    total = sum(member.file_size for member in members)
-    if total > min(MOST_BYTES, max(_SMALL, MOST_RATIO * size)):
-        most = f"{MOST_RATIO} times its size and {MOST_BYTES >> 30} GiB at most"
-        yield f"{size} bytes would unpack to {total}, a recipe's archive unpacks to {most}"
+    total, most_bytes = sum(member.file_size for member in members), most_bytes or MOST_BYTES
+    if total > min(most_bytes, max(_SMALL, MOST_RATIO * size)):
+        most = f"{MOST_RATIO} times its size and {most_bytes >> 30} GiB are the most"
+        yield f"{size} bytes would unpack to {total}, {most}"
 
 
 def _wrong_name(member: ZipInfo) -> str:
