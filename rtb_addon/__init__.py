@@ -16,6 +16,7 @@ if TYPE_CHECKING:
     from .batch.execute import execute_recipe
     from .conditions import Condition, Conditions
     from .errors import RecipeError, RenderingError
+    from .mappings.default_mappings import default_mappings
     from .montage import make_montage
     from .old_recipes import import_recipe
     from .recipe import Recipe, write_recipe
@@ -45,6 +46,7 @@ __all__ = [
     "Spectrum",
     "check_recipe",
     "clean_recipe",
+    "default_mappings",
     "execute_recipe",
     "import_recipe",
     "make_montage",
@@ -62,6 +64,7 @@ _ROOMS = {
     ".batch.execute": ("execute_recipe",),
     ".conditions": ("Condition", "Conditions"),
     ".errors": ("RecipeError", "RenderingError"),
+    ".mappings.default_mappings": ("default_mappings",),
     ".montage": ("make_montage",),
     ".old_recipes": ("import_recipe",),
     ".recipe": ("Recipe", "write_recipe"),

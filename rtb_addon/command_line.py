@@ -20,6 +20,7 @@ from .old_recipes import import_recipe
 from .pictures import make_montages, with_montages
 from .progress import ProgressBar
 from .recipe import Recipe
+from .recipe.options import section_words
 from .recipe.packing import pack_recipe
 from .recipe.problems import findings
 from .recipe.remodeler import remodeled
@@ -63,7 +64,10 @@ def check(said: Namespace) -> int:
             print(json.dumps({"problem": finding.is_problem, "sentence": finding.sentence}))
         else:
             print(finding.sentence, file=sys.stderr if finding.is_problem else sys.stdout)
-    if not said.json:
+    if said.json:
+        words = section_words(recipe.conventions) | {"band_kind": recipe.options.band_kind}
+        print(json.dumps({"problem": False, "sentence": _meaning(recipe), "meaning": words}))
+    else:
         print(_meaning(recipe))
     return WRONG if any(finding.is_problem for finding in found) else 0
 

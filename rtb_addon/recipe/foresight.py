@@ -9,7 +9,7 @@ from ..errors import RecipeError
 from ..scene.adjustments import Adjustments
 from ..scene.declarations import declarations
 from ..scene.values import Values
-from .condition_scene import resolve_condition
+from .condition_scene import adjustments_of, remodeled_parent, resolve_condition
 from .named_files import texture_names
 
 if TYPE_CHECKING:
@@ -23,7 +23,8 @@ class Foresight:
 
     Building a condition's whole scene tells all that is wrong, but a thousand of them take as long as
     many a rendering. So only values are read, and a scene is built only where one of them looks wrong, to
-    learn whether anything in it needs that value; what looks wrong in the same way is the same.
+    learn whether anything in it needs that value; what looks wrong in the same way is the same. Only then
+    a remodeler that is trusted runs here: it may put right what looks wrong.
     """
 
     def __init__(self, recipe: Recipe) -> None:
@@ -32,10 +33,10 @@ class Foresight:
 
     def problems_of(self, condition: Condition, adjustments: Adjustments) -> list[RecipeError]:
         """Return what is wrong with a condition's values and files."""
-        if self._recipe.remodeler is not None:
-            return []  # its code may put right what looks wrong, and runs in workers only
         suspected = list(self._suspected(condition, adjustments))
         sentences = tuple(map(str, suspected))
+        if self._recipe.remodeler is not None:
+            sentences += (condition.name,)  # code may put right in one condition what it leaves in another
         if suspected and sentences not in self._judged:
             self._judged[sentences] = self._fails(condition, adjustments, suspected)
         return suspected if self._judged.get(sentences) else []
@@ -63,8 +64,12 @@ class Foresight:
 
     def _fails(self, condition: Condition, adjustments: Adjustments, suspected: list[RecipeError]) -> bool:
         """Return whether a condition cannot be rendered; the sentence that says so joins the others."""
+        recipe = self._recipe
         try:
-            resolve_condition(self._recipe, condition, adjustments)
+            if recipe.remodeler is not None:
+                parent = remodeled_parent(recipe, condition)
+                adjustments = adjustments_of(recipe, condition, recipe.find_file, parent)
+            resolve_condition(recipe, condition, adjustments)
         except RecipeError as error:
             if str(error) not in map(str, suspected):
                 suspected.append(error)

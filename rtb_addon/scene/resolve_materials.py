@@ -21,7 +21,7 @@ from .vocabulary import TEXTURES
 
 # The material of what has none; a recipe may declare it.
 NO_MATERIAL = "no-material"
-# Pictures that are coded for screens; others hold what they say.
+# Pictures that are coded by the curve of sRGB (gamma -1); others hold what they say.
 _CODED = (".png", ".jpg", ".jpeg", ".tga", ".bmp", ".gif")
 _REFERENCES = ("materialID", "otherMaterialID")
 # Declared under an id of their own, they go around the material that they name, wherever it is used.
@@ -141,7 +141,7 @@ class Materials:
             raise RecipeError(f"its picture {name or image} is not in the recipe's folder or its resources/")
         defaults = {key: each.default_value() for key, each in TEXTURES["bitmap"].items()}
         parameters = {key: value for key, value in defaults.items() if value is not None}
-        gamma = 2.2 if file.suffix.lower() in _CODED else 1.0
+        gamma = -1.0 if file.suffix.lower() in _CODED else 1.0
         self.textures[image] = Texture(image, "bitmap", {**parameters, "filename": str(file), "gamma": gamma})
         self.values.warnings.append(f"{id} has no mapping: its picture {name} was taken for its reflectance")
         return TextureUse(image)

@@ -5,7 +5,7 @@ from rtb_addon.batch import render_recipe
 from rtb_addon.batch.plan import plan
 from rtb_addon.errors import RecipeError, RecipeProblems
 from rtb_addon.recipe import Recipe
-from rtb_addon.recipe.foresight import Foresight
+from rtb_addon.recipe.remodeler import remodeled
 
 
 def planned(recipe, names=None):
@@ -76,15 +76,39 @@ def test_a_scene_is_built_only_where_a_value_looks_wrong_and_once_for_the_same_f
     assert built == ["b"]
 
 
-def test_a_recipe_s_code_is_not_run_to_look_ahead(write_family):
-    recipe = write_family({"a": "gone.spd"})
-    foresight = Foresight(recipe)
-    from dataclasses import replace
+def test_a_recipe_s_code_is_run_to_look_ahead_only_where_something_looks_wrong(write_family):
+    recipe = write_family({"a": "0.5", "b": "gone.spd"})
+    (recipe.folder / "remodeler.py").write_text("raise SystemExit")
+    coded = remodeled(Recipe.load(recipe.folder), trust=True)
+    assert len(planned(coded, "a").waiting) == 1
+    with pytest.raises(RecipeProblems, match=r"gone\.spd[^\n]*\n[^\n]*remodeler\.py:1: SystemExit"):
+        planned(coded)
 
-    from rtb_addon.batch.keys import key_of
-    from rtb_addon.recipe.remodeler import Part, Remodeler
 
-    coded = replace(recipe, remodeler=Remodeler((Part("raise SystemExit", "remodeler.py"),)))
-    condition = recipe.conditions["a"]
-    assert len(foresight.problems_of(condition, key_of(recipe, condition).adjustments)) == 1
-    assert Foresight(coded).problems_of(condition, key_of(coded, condition).adjustments) == []
+REMODELER = """\
+def after_condition(document, condition):
+    {}
+    return document
+"""
+
+
+def remodeled_family(write_family, what):
+    """Return a trusted recipe that lacks the paints of two conditions, with code that does something."""
+    recipe = write_family({"a": "gone.spd", "b": "0.5", "c": "lost.spd"})
+    (recipe.folder / "remodeler.py").write_text(REMODELER.format(what))
+    return remodeled(Recipe.load(recipe.folder), trust=True)
+
+
+def test_trusted_code_hides_no_missing_file(write_family):
+    recipe = remodeled_family(write_family, "pass")
+    with pytest.raises(RecipeProblems, match=r"gone\.spd[^\n]*\(a\)\n[^\n]*lost\.spd[^\n]*\(c\)$"):
+        planned(recipe)
+    assert len(recipe.problems()) == 2
+
+
+def test_what_trusted_code_puts_right_hinders_no_condition(write_family):
+    unpainted = "[g.getparent().remove(g) for g in document.of_kind('instance_geometry')]"
+    recipe = remodeled_family(write_family, f"{unpainted} if condition.name == 'a' else None")
+    with pytest.raises(RecipeError, match=r"lost\.spd[^\n]*\(c\)$"):
+        planned(recipe)
+    assert [each.name for each in planned(recipe, "ab").waiting] == ["a", "b"]
