@@ -208,7 +208,7 @@ def test_a_mirror_throws_light_on_a_wall(tmp_path):
 
     def lit(seed):
         lights = [lamp("point", matrix(place), radius=0.5)]
-        return scene([mirrored, wall, screen], lights, materials, camera, depth=3, samples=4096, seed=seed)
+        return scene([mirrored, wall, screen], lights, materials, camera, depth=3, samples=8192, seed=seed)
 
     way = place * [1, 1, -1] - [0, 0, 1]
     falloff = way[0] / np.linalg.norm(way) ** 3

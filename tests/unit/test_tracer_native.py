@@ -160,8 +160,6 @@ def test_what_the_tracer_lacks_is_said_in_one_sentence(full, tmp_path):
     assert "texture checks" in refused(
         replace(full, materials={**full.materials, "Paint": textured}), tmp_path
     )
-    picture = replace(full.environment, parameters={**full.environment.parameters, "filename": "sky.exr"})
-    assert "the picture sky.exr" in refused(replace(full, environment=picture), tmp_path)
 
 
 def test_a_scene_of_plain_things_lacks_nothing(full):

@@ -9,6 +9,7 @@ from ...scene.render_scene import Material, RenderScene, Texture, TextureUse, Va
 from ...scene.vocabulary import WARD_VARIANTS
 
 _LIGHTS = {"radius": (0, 1e30), "cone": (0, 180), "blend": (0, 1), "angle": (0, 180)}
+_LENSES = {"lens_radius": (0, 1e6), "focus_distance": (1e-6, 1e30)}
 _MATERIALS = {
     "alphaU": (1e-4, 10),
     "alphaV": (1e-4, 10),
@@ -29,6 +30,8 @@ _REFERENCES = ("materialID", "otherMaterialID")
 
 def check(scene: RenderScene) -> None:
     """Raise RecipeError for numbers, and names of materials, that have no meaning."""
+    lens = {"lens_radius": scene.camera.lens_radius, "focus_distance": scene.camera.focus_distance}
+    _check_numbers(f"camera {scene.camera.id}", lens, _LENSES)
     for light in scene.lights:
         _check_numbers(f"light {light.id}", light.parameters, _LIGHTS)
     for material in scene.materials.values():

@@ -69,6 +69,21 @@ def sphere(u: FloatArray, v: FloatArray) -> FloatArray:
     return points
 
 
+def disc(u: FloatArray, v: FloatArray) -> FloatArray:
+    """
+    Return points (x, y, 0) spread evenly over the unit disc, from (n,) numbers in [0, 1).
+
+    Squares become rings (Shirley and Chiu, *A Low Distortion Map Between Disk and Square*, 1997), so that
+    numbers spread evenly stay so.
+    """
+    a, b = 2 * u - 1, 2 * v - 1
+    wide = np.abs(a) > np.abs(b)
+    r: FloatArray = np.where(wide, a, b)
+    share = np.where(wide, b, a) / np.where(r == 0, 1, r)
+    turn: FloatArray = np.where(wide, share * np.pi / 4, np.pi / 2 - share * np.pi / 4)
+    return np.stack([r * np.cos(turn), r * np.sin(turn), np.zeros_like(r)])
+
+
 def cone(axes: FloatArray, one_minus_cosine: FloatArray, u: FloatArray, v: FloatArray) -> FloatArray:
     """
     Return directions spread evenly within cones, density 1 / (2 pi (1 - cos)).

@@ -89,7 +89,8 @@ def _tile(
 ) -> FloatArray:
     """Return the (pixels, bands) mean radiance of some pixels, a wave of samples at a time."""
     depth, samples = _depth(scene), scene.integrator.samples
-    uses = (2 if world.materials.mixtures is None else 3) * depth - 1
+    # The last one is for the lens.
+    uses = (2 if world.materials.mixtures is None else 3) * depth
     sampler = Sampler(len(pixels), samples, uses, scene.integrator.seed, tile)
     together = max(WAVE // len(pixels), 1)
     total = np.zeros((len(pixels), len(scene.film.bands)))
@@ -122,7 +123,8 @@ def _from_camera(scene: RenderScene, draw: _Draw, pixels: IntArray) -> Paths:
     number = np.arange(len(pixels))
     u, v = draw.pair(0, number)
     row, column = np.divmod(pixels, film.width)
-    origins, directions, reach = rays(scene.camera, (column + u) / film.width, (row + v) / film.height)
+    lens = draw.pair(-1, number) if scene.camera.lens_radius else None
+    origins, directions, reach = rays(scene.camera, (column + u) / film.width, (row + v) / film.height, lens)
     throughput = np.ones((len(pixels), len(film.bands)), np.float32)
     return Paths(number, origins, directions, reach, np.full(len(pixels), np.inf), throughput)
 
@@ -153,7 +155,9 @@ def _add_met(world: World, paths: Paths, hits: Hits, found: FloatArray) -> None:
     """
     for rows, row, strength, rival in world.lights.met(hits, paths.origins, paths.directions):
         if len(rows):
-            _add(world, paths, rows, row, column(strength / (1 + rival / paths.density[rows])), found)
+            light = world.lights.coming(row, paths.directions.take(rows, axis=1))
+            light *= column(strength / (1 + rival / paths.density[rows]))
+            _add(paths, rows, light, found)
 
 
 def _gone_on(
@@ -208,19 +212,18 @@ def _add_sampled(
     side = dot(met.places.faces, sample.directions)
     rows = np.nonzero((sample.strength > 0) & ((side > 0) | model.transmits))[0]
     start, directions = _starts(met, model, side).take(rows, axis=1), sample.directions.take(rows, axis=1)
-    rows = rows[~world.blocked(start, directions, sample.reach.take(rows))]
+    free = np.nonzero(~world.blocked(start, directions, sample.reach.take(rows)))[0]
+    rows, directions = rows.take(free), directions.take(free, axis=1)
     value, rival = model.evaluate(met, rows, sample.directions)
     strength = sample.strength.take(rows) / (sample.density.take(rows) + sample.extended.take(rows) * rival)
-    _add(world, paths, rows, sample.row.take(rows), value * column(strength), found)
+    light = world.lights.coming(sample.row.take(rows), directions)
+    light *= value * column(strength)
+    _add(paths, rows, light, found)
 
 
-def _add(
-    world: World, paths: Paths, rows: IntArray, row: IntArray, strength: FloatArray, found: FloatArray
-) -> None:
-    """Add light to some paths: throughput times spectrum times (n, bands or 1) strength, band by band."""
-    light = paths.throughput.take(rows, axis=0)
-    light *= world.lights.spectra.take(row, axis=0)
-    light *= strength
+def _add(paths: Paths, rows: IntArray, light: FloatArray, found: FloatArray) -> None:
+    """Add the (n, bands) light that comes to some paths, times their throughput; band by band."""
+    light *= paths.throughput.take(rows, axis=0)
     found[paths.number.take(rows)] += light
 
 

@@ -2,7 +2,8 @@
 Where light comes from: every light of a scene in one table, chosen by power and sampled by its shape.
 
 A light's spectrum, one row of Lights.spectra, is apart from where and how strongly it shines,
-so that paths do not depend on it but for how often each light is chosen.
+so that paths do not depend on it but for how often each light is chosen. A picture of the sky
+multiplies that row, direction by direction.
 """
 
 from __future__ import annotations
@@ -18,6 +19,7 @@ from .directions import dot
 from .intersect import Surfaces
 from .kernels import Hits
 from .lamps import Group, Lamps, Sample, Spheres, Suns, Triangles
+from .sky import Skies
 from .tables import table
 
 
@@ -60,9 +62,11 @@ class Lights:
         self._lamps = Lamps(lamps, count)
         self._spheres = self.spheres = Spheres(spheres, count + len(lamps))
         self._suns = Suns(suns, count + len(lamps) + len(spheres), surfaces.radius())
-        self._groups: tuple[Group, ...] = (self._triangles, self._lamps, self._spheres, self._suns)
-        self._environment = scene.environment is not None
         self.spectra = _spectra(scene, [*lamps, *spheres, *suns])
+        self._skies = Skies(scene.environment, scene.film, len(self.spectra) - 1, surfaces.radius())
+        groups = self._triangles, self._lamps, self._spheres, self._suns, self._skies
+        self._groups: tuple[Group, ...] = groups
+        self._environment = scene.environment is not None
         self._choose()
 
     def sample(self, points: FloatArray, u: FloatArray, v: FloatArray) -> Sample | None:
@@ -92,6 +96,14 @@ class Lights:
             sample.fill(rows, group.sample(element[rows] - first, theirs, u[rows], v[rows]))
         return sample
 
+    def coming(self, row: IntArray, directions: FloatArray) -> FloatArray:
+        """Return the (n, bands) spectra of lights by row, as they come along (3, n) unit directions."""
+        light = self.spectra.take(row, axis=0)
+        if len(self._skies.rows):
+            sky = np.nonzero(row == len(self.spectra) - 1)[0]
+            light[sky] *= self._skies.radiance(directions.take(sky, axis=1))
+        return light
+
     def met(self, hits: Hits, origins: FloatArray, directions: FloatArray) -> Iterator[Met]:
         """Yield the lights that rays meet, (3, n) origins [m] and unit directions."""
         yield self._met_triangles(hits, directions)
@@ -100,9 +112,8 @@ class Lights:
         escaped = np.nonzero(hits.triangle == -1)[0]
         for sun in range(len(self._suns.rows)):
             yield self._met_sun(sun, escaped[self._suns.seen(sun, directions.take(escaped, axis=1))])
-        # Scattering samples an even environment as well as anything could, so nothing rivals it.
         if self._environment:
-            yield Met(escaped, np.full(len(escaped), len(self.spectra) - 1), np.ones(len(escaped)), 0.0)
+            yield self._met_environment(escaped, directions)
 
     def _met_triangles(self, hits: Hits, directions: FloatArray) -> Met:
         rows = np.nonzero(hits.triangle >= 0)[0] if self._triangles.rows.size else np.zeros(0, int)
@@ -123,6 +134,13 @@ class Lights:
         rival = float(self._chance[self._first[3] + sun] * self._suns.densities[sun])
         row, radiance = self._suns.rows[sun], self._suns.radiance[sun]
         return Met(rows, np.full(len(rows), row), np.full(len(rows), radiance), rival)
+
+    def _met_environment(self, rows: IntArray, directions: FloatArray) -> Met:
+        # Scattering samples an even environment as well as anything could, so nothing rivals it.
+        rival: FloatArray | float = 0.0
+        if len(self._skies.rows):
+            rival = self._chance[-1] * self._skies.density(directions.take(rows, axis=1))
+        return Met(rows, np.full(len(rows), len(self.spectra) - 1), np.ones(len(rows)), rival)
 
     def _choose(self) -> None:
         """

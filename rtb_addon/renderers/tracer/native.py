@@ -37,7 +37,7 @@ from ..native_lines import integrator_with
 from ..ply import read_mesh, write_mesh
 from .checks import check
 
-VERSION = 2
+VERSION = 3
 _FORMAT = "RenderToolbox tracer scene"
 
 
@@ -70,10 +70,14 @@ def _scene(scene: RenderScene, folder: Path) -> dict[str, Any]:
         "integrator": asdict(scene.integrator),
         "film": _film(scene.film),
         "camera": {**asdict(scene.camera), "to_world": scene.camera.to_world.tolist()},
-        "environment": None if scene.environment is None else _light(scene.environment),
-        "lights": [_light(light) for light in scene.lights],
+        "environment": None if scene.environment is None else _light(scene.environment, folder),
+        "lights": [_light(light, folder) for light in scene.lights],
         "materials": [
-            {"id": material.id, "model": material.model, "parameters": _parameters(material.parameters)}
+            {
+                "id": material.id,
+                "model": material.model,
+                "parameters": _parameters(material.parameters, folder),
+            }
             for material in scene.materials.values()
         ],
         "textures": [_texture(texture, folder) for texture in scene.textures.values()],
@@ -92,8 +96,8 @@ def _film(film: Film) -> dict[str, Any]:
     }
 
 
-def _light(light: Light) -> dict[str, Any]:
-    parameters = _parameters(light.parameters)
+def _light(light: Light, folder: Path) -> dict[str, Any]:
+    parameters = _parameters(light.parameters, folder)
     return {"id": light.id, "kind": light.kind, "to_world": light.to_world.tolist(), "parameters": parameters}
 
 
@@ -107,8 +111,12 @@ def _shape(shape: Shape, folder: Path) -> dict[str, Any]:
     }
 
 
-def _parameters(parameters: Mapping[str, Value]) -> dict[str, Any]:
-    return {name: _value(value) for name, value in parameters.items()}
+def _parameters(parameters: Mapping[str, Value], folder: Path) -> dict[str, Any]:
+    """Return parameters, files named as seen from the native scene's folder."""
+    said = {name: _value(value) for name, value in parameters.items()}
+    if said.get("filename"):
+        said["filename"] = Path(os.path.relpath(said["filename"], folder)).as_posix()
+    return said
 
 
 def _value(value: Value) -> Any:
@@ -118,11 +126,7 @@ def _value(value: Value) -> Any:
 
 
 def _texture(texture: Texture, folder: Path) -> dict[str, Any]:
-    """Return a texture, its file named as seen from the native scene's folder."""
-    parameters = _parameters(texture.parameters)
-    if "filename" in parameters:
-        parameters["filename"] = Path(os.path.relpath(parameters["filename"], folder)).as_posix()
-    return {"id": texture.id, "kind": texture.kind, "parameters": parameters}
+    return {"id": texture.id, "kind": texture.kind, "parameters": _parameters(texture.parameters, folder)}
 
 
 def _spectrum(spectrum: Spectrum) -> dict[str, Any]:
@@ -145,7 +149,8 @@ def _read_scene(native: dict[str, Any], folder: Path) -> RenderScene:
     camera, environment = native["camera"], native["environment"]
     film, bands = native["film"], native["film"]["bands"]
     materials = [
-        Material(one["id"], one["model"], _read_parameters(one["parameters"])) for one in native["materials"]
+        Material(one["id"], one["model"], _read_parameters(one["parameters"], folder))
+        for one in native["materials"]
     ]
     return RenderScene(
         camera=Camera(
@@ -154,20 +159,22 @@ def _read_scene(native: dict[str, Any], folder: Path) -> RenderScene:
             np.array(camera["to_world"], float),
             tuple(camera["window"]),
             tuple(camera["clip"]),
+            camera["lens_radius"],
+            camera["focus_distance"],
         ),
         shapes=tuple(_read_shape(one, folder) for one in native["shapes"]),
         materials={material.id: material for material in materials},
-        lights=tuple(_read_light(one) for one in native["lights"]),
+        lights=tuple(_read_light(one, folder) for one in native["lights"]),
         textures={one["id"]: _read_texture(one, folder) for one in native["textures"]},
-        environment=None if environment is None else _read_light(environment),
+        environment=None if environment is None else _read_light(environment, folder),
         integrator=Integrator(**native["integrator"]),
         film=Film(**{**film, "bands": Bands(np.array(bands["centres"]), np.array(bands["edges"]))}),
     )
 
 
-def _read_light(one: dict[str, Any]) -> Light:
+def _read_light(one: dict[str, Any], folder: Path) -> Light:
     to_world = np.array(one["to_world"], float)
-    return Light(one["id"], one["kind"], to_world, _read_parameters(one["parameters"]))
+    return Light(one["id"], one["kind"], to_world, _read_parameters(one["parameters"], folder))
 
 
 def _read_shape(one: dict[str, Any], folder: Path) -> Shape:
@@ -176,8 +183,11 @@ def _read_shape(one: dict[str, Any], folder: Path) -> Shape:
     return Shape(one["id"], read_mesh(folder / one["mesh"]), to_world, one["material"], emission)
 
 
-def _read_parameters(parameters: dict[str, Any]) -> dict[str, Value]:
-    return {name: _read_value(value) for name, value in parameters.items()}
+def _read_parameters(parameters: dict[str, Any], folder: Path) -> dict[str, Value]:
+    said = {name: _read_value(value) for name, value in parameters.items()}
+    if said.get("filename"):
+        said["filename"] = os.path.normpath(folder / str(said["filename"]))
+    return said
 
 
 def _read_value(value: Any) -> Value:
@@ -187,10 +197,7 @@ def _read_value(value: Any) -> Value:
 
 
 def _read_texture(one: dict[str, Any], folder: Path) -> Texture:
-    parameters = _read_parameters(one["parameters"])
-    if "filename" in parameters:
-        parameters["filename"] = os.path.normpath(folder / str(parameters["filename"]))
-    return Texture(one["id"], one["kind"], parameters)
+    return Texture(one["id"], one["kind"], _read_parameters(one["parameters"], folder))
 
 
 def _read_spectrum(one: dict[str, Any]) -> Spectrum:

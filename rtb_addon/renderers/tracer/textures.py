@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterator, Sequence
 from pathlib import Path
 from typing import Protocol
 
@@ -45,35 +46,56 @@ class Bitmap:
         self._texels = picture.texels.reshape(-1, picture.texels.shape[2])
         self._height, self._width, _ = picture.texels.shape
         self._weights = picture.weights(film.bands, film.band_kind).astype(np.float32)
-        self._nearest, self._wrap = said["filterMode"] == "nearest", str(said["wrapMode"])
+        self._nearest, self._wraps = said["filterMode"] == "nearest", (str(said["wrapMode"]),) * 2
         self._place = _pairs(texture, "scale", "offset")
 
     def at(self, uvs: FloatArray) -> FloatArray:
         """Return the texel at each place, or what the four around it are on average."""
         u, v = uvs * self._place[0, :, None] + self._place[1, :, None]
+        places = u * self._width, (1 - v) * self._height
         mixed = np.zeros((len(u), self._texels.shape[1]), np.float32)
-        for row, down in self._beside(1 - v, self._height):
-            for column, along in self._beside(u, self._width):
-                mixed += self._texels[row * self._width + column] * (down * along)[:, None]
+        for number, share in around(places, (self._width, self._height), self._wraps, self._nearest):
+            mixed += self._texels.take(number, axis=0) * share[:, None]
         return mixed @ self._weights
 
-    def _beside(self, place: FloatArray, count: int) -> list[tuple[IntArray, FloatArray]]:
-        """Return the two texels that places lie between in one direction, and how much each counts."""
-        middle = place * count - 0.5
-        low: FloatArray = np.floor(middle)
-        share: FloatArray = (middle - low).astype(np.float32)
-        if self._nearest:
-            share = (share >= 0.5).astype(np.float32)
-        return [(self._wrapped(low, count), 1 - share), (self._wrapped(low + 1, count), share)]
 
-    def _wrapped(self, place: FloatArray, count: int) -> IntArray:
-        """Return the number of a texel that may lie outside the picture."""
-        if self._wrap == "repeat":
-            return (place % count).astype(int)
-        if self._wrap == "mirror":
-            again = place % (2 * count)
-            return np.minimum(again, 2 * count - 1 - again).astype(int)
-        return place.clip(0, count - 1).astype(int)
+def around(
+    places: Sequence[FloatArray], sizes: Sequence[int], wraps: Sequence[str], nearest: bool = False
+) -> Iterator[tuple[IntArray, FloatArray]]:
+    """
+    Yield the four texels around each place, and how much each counts.
+
+    Parameters
+    ----------
+    places : in texels from the left and from the top
+    sizes : width and height of the picture
+    wraps : how it goes on across and down
+    nearest : whether only the nearest of the four counts
+    """
+    across, down = (_beside(*one, nearest) for one in zip(places, sizes, wraps, strict=True))
+    for row, low in down:
+        for column, along in across:
+            yield row * sizes[0] + column, low * along
+
+
+def _beside(place: FloatArray, count: int, wrap: str, nearest: bool) -> list[tuple[IntArray, FloatArray]]:
+    """Return the two texels that places lie between in one direction, and how much each counts."""
+    middle = place - 0.5
+    low: FloatArray = np.floor(middle)
+    share: FloatArray = (middle - low).astype(np.float32)
+    if nearest:
+        share = (share >= 0.5).astype(np.float32)
+    return [(_wrapped(low, count, wrap), 1 - share), (_wrapped(low + 1, count, wrap), share)]
+
+
+def _wrapped(place: FloatArray, count: int, wrap: str) -> IntArray:
+    """Return the number of a texel that may lie outside the picture."""
+    if wrap == "repeat":
+        return (place % count).astype(int)
+    if wrap == "mirror":
+        again = place % (2 * count)
+        return np.minimum(again, 2 * count - 1 - again).astype(int)
+    return place.clip(0, count - 1).astype(int)
 
 
 KINDS = {"checkerboard": Checkerboard, "bitmap": Bitmap}
