@@ -12,6 +12,7 @@ from ..scene.render_scene import Mesh
 
 _FACE = np.dtype([("count", "u1"), ("indices", "<i4", (3,))])
 _FACES = ("property list uchar int vertex_indices",)
+_HEADER = 1024  # bytes, more than any header of ours has
 # How our vertices may be laid out: the arrays of a Mesh and the names PLY has for their columns.
 _COLUMNS = {"vertices": "xyz", "normals": ("nx", "ny", "nz"), "uvs": ("u", "v")}
 
@@ -43,6 +44,16 @@ def read_mesh(path: Path) -> Mesh:
     table = np.frombuffer(body[:split], "<f4").reshape(vertices, len(names))
     faces = np.frombuffer(body[split:], _FACE)
     return Mesh(triangles=faces["indices"].copy(), **_arrays(table, names))
+
+
+def count_triangles(path: Path) -> int:
+    """Return how many triangles a file of write_mesh has, none if it is not there; reads its header alone."""
+    try:
+        with path.open("rb") as file:
+            lines = file.read(_HEADER).decode("ascii", "replace").splitlines()
+    except OSError:
+        return 0
+    return _count(lines, "face", path)
 
 
 def _header(mesh: Mesh) -> bytes:

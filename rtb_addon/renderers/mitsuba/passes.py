@@ -18,6 +18,7 @@ import numpy as np
 
 from ...spectra import FloatArray
 from ..interface import Report
+from .loaded import LoadedScene
 from .lobe_path import path_radiance
 from .native import Native
 from .tables import Tables
@@ -37,10 +38,12 @@ class Pass:
     seed: int
 
 
-def render_passes(scene: mi.Scene, tables: Tables, native: Native, report: Report) -> tuple[FloatArray, int]:
+def render_passes(
+    loaded: LoadedScene, tables: Tables, native: Native, report: Report
+) -> tuple[FloatArray, int]:
     """Return the (height, width, bands) radiance [W sr-1 m-2 nm-1] and how many samples a pixel had."""
     rounds = -(-native.samples // _MOST_SAMPLES)
-    sampler = scene.sensors()[0].sampler()
+    sampler = loaded.sensor.sampler()
     sampler.set_sample_count(-(-native.samples // rounds))
     # Some counts cannot be spread evenly, and a few samples more can.
     samples = sampler.sample_count()
@@ -51,7 +54,7 @@ def render_passes(scene: mi.Scene, tables: Tables, native: Native, report: Repor
     depth = dr.opaque(mi.UInt32, native.depth)
     for done, one in enumerate(planned):
         report(done / len(planned))
-        sums = _render(scene, tables, sampler.clone(), native, one, depth)
+        sums = _render(loaded, tables, sampler.clone(), native, one, depth)
         total[one.first : one.first + one.pixels] += sums
     report(1.0)
     mean = total / (samples * rounds)
@@ -69,14 +72,14 @@ def plan(pixels: int, samples: int, rounds: int, seed: int, paths: int) -> Itera
             number += 1
 
 
-def _render(scene, tables, sampler, native: Native, one: Pass, depth) -> FloatArray:
+def _render(loaded, tables, sampler, native: Native, one: Pass, depth) -> FloatArray:
     """Return the (pixels, bands) sums of a pass's samples."""
     samples = sampler.sample_count()
     lanes = one.pixels * samples
     sampler.seed(one.seed, lanes)
     pixel = dr.arange(mi.UInt32, lanes) // samples
-    ray = _camera_ray(scene, sampler, native, pixel + dr.opaque(mi.UInt32, one.first))
-    radiance = path_radiance(scene, tables, sampler, ray, depth)
+    ray = _camera_ray(loaded.sensor, sampler, native, pixel + dr.opaque(mi.UInt32, one.first))
+    radiance = path_radiance(loaded.scene, tables, sampler, ray, depth)
     bands = len(native.bands)
     sums = dr.zeros(mi.Float, one.pixels * bands)
     for band in range(bands):
@@ -85,7 +88,7 @@ def _render(scene, tables, sampler, native: Native, one: Pass, depth) -> FloatAr
     return np.array(sums).reshape(one.pixels, bands)
 
 
-def _camera_ray(scene, sampler, native: Native, pixel):
+def _camera_ray(sensor, sampler, native: Native, pixel):
     """Return a ray through a random place of each pixel."""
     width, height = (dr.opaque(mi.UInt32, size) for size in (native.width, native.height))
     row = pixel // width
@@ -94,5 +97,5 @@ def _camera_ray(scene, sampler, native: Native, pixel):
     y = (mi.Float(row) + v) / mi.Float(height)
     if native.pixel_stretch != 1:
         y = (y - 0.5) * dr.opaque(mi.Float, native.pixel_stretch) + 0.5
-    ray, _ = scene.sensors()[0].sample_ray(0.0, 0.5, mi.Point2f(x, y), mi.Point2f(0.5))
+    ray, _ = sensor.sample_ray(0.0, 0.5, mi.Point2f(x, y), mi.Point2f(0.5))
     return mi.Ray3f(ray)

@@ -52,15 +52,16 @@ class MitsubaRenderer:
 
 
 def _lobe_path(native: Native, options: RenderOptions, report: Report):
-    mi = session.start(session.FAST, options.threads)
+    session.start(session.FAST, options.threads)
+    from .loaded import load
     from .one_hot import one_hot
     from .passes import render_passes
     from .tables import Tables
 
     source = one_hot(native)
-    scene = mi.load_string(source.xml, parallel=False, optimize=False)
-    tables = Tables(scene, source, native.bands, native.band_kind)
-    radiance, samples = render_passes(scene, tables, native, report)
+    loaded = load(source, native)
+    tables = Tables(loaded, source, native.bands, native.band_kind)
+    radiance, samples = render_passes(loaded, tables, native, report)
     return radiance, {"integrator": "lobe path", "variant": session.FAST, "samples": str(samples)}
 
 

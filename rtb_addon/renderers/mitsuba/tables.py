@@ -15,7 +15,8 @@ import numpy as np
 
 from ...spectra import BandKind, Bands, FloatArray, Spectrum
 from .arrays import floats
-from .lobes import Lobe
+from .loaded import LoadedScene
+from .lobes import Lobe, in_slots
 from .one_hot import Emitter, OneHotScene
 from .pictures import Pictures
 from .sky_sampling import axes_of, uv_of
@@ -39,14 +40,16 @@ class Tables:
     pictures : those of the scene's lobes
     sky : the picture that is around the scene, by its emitter
     metals : most lobes of metals that a material has; they are its first
+    constants : whether a material has a part that no spectrum multiplies
     beams : whether some emitter is a spot
     suns : number of emitters that are discs in the sky
     single : whether there is one emitter, whose spectrum can wait until the end
     """
 
-    def __init__(self, scene, source: OneHotScene, bands: Bands, kind: BandKind) -> None:
+    def __init__(self, loaded: LoadedScene, source: OneHotScene, bands: Bands, kind: BandKind) -> None:
         self.padded_bands = -len(bands) % _PACKET + len(bands)
         self.lobes, self.metals = source.lobes, source.metals
+        self.constants = any(lobe.constant for lobes in source.materials.values() for lobe in lobes)
         emitters = list(source.emitters.values())
         self.beams = any(emitter.outer > -2 for emitter in emitters)
         self.suns = sum(emitter.narrowness > 0 for emitter in emitters)
@@ -59,12 +62,10 @@ class Tables:
         self.sky = Pictures(shown, bands, kind, self.padded_bands)
         turn = pictured[0].turn if pictured else np.eye(3)
         self._sky_axes = axes_of(turn)
-        self._bsdf_rows = _rows_by_pointer(
-            {shape.bsdf().id(): mi.BSDFPtr(shape.bsdf()) for shape in scene.shapes()}, source.materials
-        )
-        self._emitter_rows = _rows_by_pointer(
-            {emitter.id(): mi.EmitterPtr(emitter) for emitter in scene.emitters()}, source.emitters
-        )
+        pointers = {id: mi.BSDFPtr(material) for id, material in loaded.materials.items()}
+        self._bsdf_rows = _rows_by_pointer(pointers, source.materials)
+        pointers = {id: mi.EmitterPtr(emitter) for id, emitter in loaded.emitters.items()}
+        self._emitter_rows = _rows_by_pointer(pointers, source.emitters)
 
     def _fill(self, source: OneHotScene, emitters: list[Emitter], bands: Bands, kind: BandKind) -> None:
         def in_bands(spectrum) -> FloatArray:
@@ -72,10 +73,16 @@ class Tables:
 
         black = np.zeros(self.padded_bands)
         rows = [
-            [in_bands(lobes[k].reflectance) if k < len(lobes) else black for k in range(self.lobes)]
+            [black if lobe is None else in_bands(lobe.reflectance) for lobe in in_slots(lobes, self.lobes)]
             for lobes in source.materials.values()
         ]
-        slots = [[*lobes, *[_NO_METAL] * self.metals][: self.metals] for lobes in source.materials.values()]
+        slots = [
+            [lobe or _NO_METAL for lobe in in_slots(lobes, self.lobes)[: self.metals]]
+            for lobes in source.materials.values()
+        ]
+        self._has_constant = mi.Bool(
+            [any(lobe.constant for lobe in lobes) for lobes in source.materials.values()]
+        )
         metals = [[lobe.index is not None for lobe in row] for row in slots]
         indices = [[[in_bands(part) for part in lobe.index or _VOID] for lobe in row] for row in slots]
         # Light sampling aims anywhere in a disc: irradiance becomes radiance times solid angle.
@@ -121,6 +128,14 @@ class Tables:
     def material_row(self, bsdf, active) -> Any:
         """Return the row of each material."""
         return dr.gather(mi.UInt32, self._bsdf_rows, _number(bsdf), active)
+
+    def coefficients(self, row, colour, active) -> list:
+        """Return the coefficients of a material's lobes from a colour of Mitsuba's."""
+        found: list[Any] = [colour[k] for k in range(self.lobes)]
+        if not self.constants:
+            return found
+        everywhere = dr.select(dr.gather(mi.Bool, self._has_constant, row, active), found[-1], 0)
+        return [*(each - everywhere for each in found[:-1]), found[-1]]
 
     def reflectance(self, row, lobe: int, uv, active) -> list:
         """Return the spectrum of a material's lobe at a place on the surface, one mi.Float a band."""
@@ -174,7 +189,7 @@ class Tables:
 
 
 def _pictures(source: OneHotScene, bands: Bands, kind: BandKind, padded: int) -> Pictures:
-    rows = ([*lobes, *[None] * source.lobes][: source.lobes] for lobes in source.materials.values())
+    rows = (in_slots(lobes, source.lobes) for lobes in source.materials.values())
     return Pictures([lobe for row in rows for lobe in row], bands, kind, padded)
 
 
