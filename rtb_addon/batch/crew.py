@@ -26,17 +26,28 @@ class Crew:
     ----------
     tasks : what to render
     size : how many workers at once, at most
+    idle : a worker that waits for tasks already, to begin with
+    keep : takes a worker that has no more to do; None: it is let go
     """
 
-    def __init__(self, tasks: Iterable[Task], size: int) -> None:
+    def __init__(
+        self,
+        tasks: Iterable[Task],
+        size: int,
+        idle: EventStream | None = None,
+        keep: Callable[[EventStream], None] | None = None,
+    ) -> None:
         self._waiting = deque(tasks)
         self._size = size
+        self._idle, self._keep = idle, keep
         self._at_work: dict[EventStream, Task | None] = {}
         self._died: set[str] = set()
         self._inbox: queue.SimpleQueue[tuple[EventStream, Event | None]] = queue.SimpleQueue()
 
     def work(self, cancelled: Callable[[], bool]) -> Iterator[Event]:
         """Yield what happens until all is done or somebody cancels; then no worker is left."""
+        if self._idle is not None:
+            self._idle.inbox = self._inbox
         try:
             yield from self._hire()
             while self._at_work and not cancelled():
@@ -47,15 +58,20 @@ class Crew:
 
     def _hire(self) -> Iterator[Event]:
         while self._waiting and len(self._at_work) < self._size:
-            threads = self._waiting[0].threads
-            worker = EventStream(start_child([], "rtb_addon.worker", threads), self._inbox)
-            yield from self._give_task(worker)
+            yield from self._give_task(self._idle or self._new_worker())
+            self._idle = None
+
+    def _new_worker(self) -> EventStream:
+        return EventStream(start_child([], "rtb_addon.worker", self._waiting[0].threads), self._inbox)
 
     def _give_task(self, worker: EventStream) -> Iterator[Event]:
         """Give a worker its next task, or the evening off."""
         task = self._waiting.popleft() if self._waiting else None
         self._at_work[worker] = task
-        if task is None:
+        if task is None and self._keep is not None:
+            del self._at_work[worker]
+            self._keep(worker)
+        elif task is None:
             close_input(worker.process)
         elif send(worker.process, task.to_json()):  # where it cannot hear, its end will be heard
             yield Event("started", condition=task.condition)

@@ -1,9 +1,10 @@
 """
 One condition, rendered for a batch that is elsewhere: what a task is on any engine, on any machine.
 
-The one who runs it owns a worker child, so that an abort in native code ends that child alone. All that
-both sides share is the recipe's folder. The batch keeps a folder in it; the errand leaves there how far
-it is, and stops once it cannot, for then nobody waits for it any more.
+The one who runs it owns a worker child, so that an abort in native code ends that child alone; the child
+stays for the batch's next errand there. All that both sides share is the recipe's folder. The batch keeps
+a folder in it; the errand leaves there how far it is, and stops once it cannot, for then nobody waits for
+it any more.
 """
 
 from __future__ import annotations
@@ -13,10 +14,12 @@ import json
 import os
 import socket
 import time
+from functools import partial
 from pathlib import Path
 
 from ..background import Event
 from ..worker import Task
+from . import idle_workers
 from .crew import Crew
 
 PULSE = 0.3  # [s] between two signs of life
@@ -36,8 +39,9 @@ def run_errand(words: str, meeting: str) -> str:
     if not Path(task.folder).is_dir():
         lost = f"{socket.gethostname()} sees no {task.folder}, it must lie on a disk that all machines share"
         return Event("failed", condition=task.condition, message=lost, fault="rendering").to_json()
-    pulse = _Pulse(Path(meeting) / f"{task.condition}.json")
-    for event in Crew([task], 1).work(pulse.unwanted):
+    pulse, waiting = (_Pulse(Path(meeting) / name) for name in (f"{task.condition}.json", ".idle.json"))
+    keep = partial(idle_workers.keep, meeting, gone=waiting.unwanted)
+    for event in Crew([task], 1, idle_workers.take(meeting), keep).work(pulse.unwanted):
         pulse.news = event
     ended = pulse.news.kind in {"done", "cached", "failed"}
     return (pulse.news if ended else Event("cancelled", condition=task.condition)).to_json()

@@ -15,6 +15,7 @@ from pathlib import Path
 from ..background import Event
 from ..errors import RecipeError, RenderingError
 from ..worker import Task
+from . import idle_workers
 from .errand import news_in, run_errand
 
 UNDER_WAY = ".under-way"  # where errands leave signs of life
@@ -61,6 +62,7 @@ class Errands:
         finally:
             shutil.rmtree(self._meeting.parent, ignore_errors=True)
             wait([future for future in out if not future.cancel()], GRACE)
+            idle_workers.dismiss(str(self._meeting))  # of an engine in this process
 
     def _sent(self, task: Task) -> Future[str]:
         try:

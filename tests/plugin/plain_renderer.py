@@ -46,6 +46,8 @@ class Plain:
     def render(self, native, options, report):
         words = json.loads(native.read_text())
         _misbehave(native)
+        if "PLAIN_PIDS" in os.environ:
+            native.with_suffix(".pid").write_text(str(os.getpid()))
         for number in range(words["passes"]):
             report(number / words["passes"])
             time.sleep(float(os.environ.get("PLAIN_PASS", "0.001")))

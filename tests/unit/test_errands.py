@@ -1,5 +1,6 @@
 import os
 import shutil
+import signal
 import threading
 import time
 from concurrent.futures import Future, ThreadPoolExecutor
@@ -8,7 +9,7 @@ from pathlib import Path
 import pytest
 
 from rtb_addon.background import Event
-from rtb_addon.batch import render_recipe
+from rtb_addon.batch import idle_workers, render_recipe
 from rtb_addon.batch.errand import run_errand
 from rtb_addon.errors import RenderingError
 from rtb_addon.worker import Task
@@ -66,6 +67,71 @@ def test_cancelling_ends_errands_on_any_engine_within_a_second(write_family, plu
     assert time.monotonic() - asked[0] < 1.2
     assert last.kind == "cancelled"
     assert not workers_of(os.getpid())
+
+
+def pids_of(recipe):
+    """Return the workers that rendered a family, by a renderer that notes its process."""
+    return {int(file.read_text()) for file in recipe.folder.glob("scenes/plain/*.pid")}
+
+
+def test_a_worker_stays_warm_from_errand_to_errand_and_goes_with_its_batch(write_family, plugin):
+    plugin.setenv("PLAIN_PIDS", "1")
+    recipe = write_family({"a": "0.1", "b": "0.2", "c": "0.3", "d": "0.4"})
+    with ThreadPoolExecutor(1) as engine:
+        first = [event.kind for event in render_recipe(recipe.folder, executor=engine)]
+        assert first.count("done") == 4
+        assert len(pids_of(recipe)) == 1
+        assert not workers_of(os.getpid())
+        list(render_recipe(recipe.folder, executor=engine, conditions=["a"], fresh=True))
+        assert len(pids_of(recipe)) == 2  # a batch may find other files than the last
+
+
+def test_a_warm_worker_that_died_meanwhile_is_replaced(write_family, plugin):
+    plugin.setenv("PLAIN_PIDS", "1")
+    recipe = write_family({"a": "0.1", "b": "0.2"})
+    with ThreadPoolExecutor(1) as engine:
+        for event in render_recipe(recipe.folder, executor=engine):
+            if event.kind == "done" and event.condition == "a":
+                os.kill(pids_of(recipe).pop(), signal.SIGKILL)
+            assert event.kind != "failed"
+    assert recipe.rendering_file(recipe.conditions["b"]).is_file()
+
+
+@pytest.fixture
+def meeting(tmp_path):
+    """A batch's folder, which is there until the test ends."""
+    folder = tmp_path / "meeting"
+    folder.mkdir()
+    yield folder
+    idle_workers.dismiss(str(folder))
+
+
+def errand_for(recipe, meeting):
+    """Render a condition for a batch that is elsewhere; return how that ended."""
+    task = Task(str(recipe.folder), "a", fresh=True)
+    return Event.from_json(run_errand(task.to_json(), str(meeting))).kind
+
+
+def wait_until_no_worker_is_left(seconds=2):
+    end = time.monotonic() + seconds
+    while workers_of(os.getpid()):
+        assert time.monotonic() < end
+        time.sleep(0.02)
+
+
+def test_an_idle_worker_of_a_batch_that_vanished_stops_by_itself(write_family, plugin, meeting):
+    assert errand_for(write_family({"a": "0.5"}), meeting) == "done"
+    assert len(workers_of(os.getpid())) == 1
+    shutil.rmtree(meeting)
+    wait_until_no_worker_is_left()
+
+
+def test_an_idle_worker_does_not_wait_for_ever(write_family, plugin, meeting, monkeypatch):
+    monkeypatch.setattr(idle_workers, "PATIENCE", 0.2)
+    recipe = write_family({"a": "0.5"})
+    assert errand_for(recipe, meeting) == "done"
+    wait_until_no_worker_is_left()
+    assert errand_for(recipe, meeting) == "done"
 
 
 class Lossy:
