@@ -51,6 +51,7 @@ TABLE: Mapping[str, Mapping[str, Fidelity]] = {
     "lens thin": {"tracer": EXACT},
     "filter box": {"mitsuba": EXACT, "tracer": EXACT, "sphere": EXACT},
     "distribution beckmann": {"mitsuba": EXACT, "tracer": EXACT},
+    "distribution ggx": {"tracer": EXACT},
     "bands averaged": {"mitsuba": EXACT, "tracer": EXACT, "sphere": EXACT},
     "bands centre": {"mitsuba": EXACT, "tracer": EXACT, "sphere": EXACT},
 }

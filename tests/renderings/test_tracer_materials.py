@@ -7,7 +7,6 @@ import pytest
 from scipy import special
 
 from rtb_addon.errors import RecipeError
-from rtb_addon.renderers.tracer import coat
 from rtb_addon.renderers.tracer.directions import normalised
 from rtb_addon.scene.render_scene import Camera, Material, Shape
 from rtb_addon.spectra import Spectrum
@@ -308,18 +307,6 @@ def test_the_coat_of_a_smooth_plastic_shows_the_sky(tmp_path):
     floor = Shape("floor", SQUARE, matrix(), "coat")
     lit = scene([floor], [], [black], environment=sky(2.0), samples=1024)
     np.testing.assert_allclose(picture(lit, tmp_path)[0, 0], 2 * 0.04, rtol=1e-2)
-
-
-@pytest.mark.parametrize("roughness", [0.05, 0.2, 0.6])
-def test_rough_coats_lose_light_but_never_make_it(roughness):
-    cosines = np.array([0.02, 0.2, 0.5, 0.9, 1.0])
-    for eta in (1.5, 1 / 1.5):
-        back, through = (coat.reflected(cosines, eta, roughness), coat.transmitted(cosines, eta, roughness))
-        assert (back + through < 1 + 4e-3).all()
-        assert (back > 0).all()
-    if roughness == 0.05:
-        expected = [reflected_by(1.5, 0, np.degrees(np.arccos(c))) for c in cosines[2:]]
-        np.testing.assert_allclose(coat.reflected(cosines, 1.5, roughness)[2:], expected, rtol=0.02)
 
 
 @pytest.mark.parametrize("roughness", [0.0, 0.1, 0.4])

@@ -11,7 +11,6 @@ from __future__ import annotations
 import numpy as np
 
 from ...spectra import FloatArray
-from .directions import dot, normalised
 
 
 def distribution(h: FloatArray, along: FloatArray, across: FloatArray) -> FloatArray:
@@ -25,12 +24,19 @@ def distribution(h: FloatArray, along: FloatArray, across: FloatArray) -> FloatA
     return np.where(h[2] > 0, np.exp(-slope) / (np.pi * along * across * squared**2), 0)
 
 
-def facets(u: FloatArray, v: FloatArray, along: FloatArray, across: FloatArray) -> FloatArray:
-    """Return unit vectors with the density D hz [sr-1]: normally distributed slopes."""
+def facets(
+    back: FloatArray, u: FloatArray, v: FloatArray, along: FloatArray, across: FloatArray
+) -> FloatArray:
+    """Return unit vectors with density(): normally distributed slopes, those out of sight from back, too."""
     slope = np.sqrt(-np.log1p(-u))
     turn = 2 * np.pi * v
     h = np.stack([along * slope * np.cos(turn), across * slope * np.sin(turn), np.ones_like(u)])
     return h / np.sqrt(h[0] ** 2 + h[1] ** 2 + 1)
+
+
+def density(back: FloatArray, h: FloatArray, along: FloatArray, across: FloatArray) -> FloatArray:
+    """Return the density of facets() at unit vectors h, D hz [sr-1]."""
+    return distribution(h, along, across) * h[2]
 
 
 def unmasked(w: FloatArray, roughness: FloatArray) -> FloatArray:
@@ -40,25 +46,3 @@ def unmasked(w: FloatArray, roughness: FloatArray) -> FloatArray:
     a = 1 / np.maximum(roughness * tangent, 1e-20)
     fitted = (3.535 * a + 2.181 * a * a) / (1 + 2.276 * a + 2.577 * a * a)
     return np.where(a < 1.6, fitted, 1.0)
-
-
-def mirrored(back: FloatArray, u: FloatArray, v: FloatArray, roughness: FloatArray) -> FloatArray:
-    """Return where small mirrors send what comes from back; reflection() knows the density."""
-    h = facets(u, v, roughness, roughness)
-    return 2 * dot(back, h) * h - back
-
-
-def reflection(back: FloatArray, towards: FloatArray, roughness: FloatArray) -> tuple[FloatArray, ...]:
-    """
-    Return how perfect small mirrors reflect.
-
-    Three (n,) arrays: f cos = D G / (4 cos), the density of mirrored() [sr-1], and the cosine of the
-    angle at which the mirrors are met. All three are 0 where a direction is below the surface.
-    """
-    seen = (back[2] > 0) & (towards[2] > 0)
-    h = normalised(np.where(seen, back + towards, [[0.0], [0.0], [1.0]]))
-    d = seen * distribution(h, roughness, roughness)
-    cosine = seen * dot(back, h)
-    masked = unmasked(back, roughness) * unmasked(towards, roughness)
-    gain = d * masked / (4 * np.where(seen, back[2], 1))
-    return gain, d * h[2] / (4 * np.where(cosine > 0, cosine, 1)), cosine

@@ -6,7 +6,7 @@ from collections.abc import Iterator, Mapping
 
 from ...errors import RecipeError
 from ...scene.render_scene import Material, RenderScene, Texture, TextureUse, Value
-from ...scene.vocabulary import WARD_VARIANTS
+from ...scene.vocabulary import MATERIALS
 
 _LIGHTS = {"radius": (0, 1e30), "cone": (0, 180), "blend": (0, 1), "angle": (0, 180)}
 _LENSES = {"lens_radius": (0, 1e6), "focus_distance": (1e-6, 1e30)}
@@ -36,7 +36,7 @@ def check(scene: RenderScene) -> None:
         _check_numbers(f"light {light.id}", light.parameters, _LIGHTS)
     for material in scene.materials.values():
         _check_numbers(f"material {material.id}", material.parameters, _MATERIALS)
-        _check_variant(material)
+        _check_choices(material)
         _check_references(material, scene.materials)
     for texture in scene.textures.values():
         _check_texture(texture)
@@ -63,12 +63,12 @@ def _check_numbers(what: str, said: Mapping[str, Value], ranges: Mapping[str, tu
             raise RecipeError(f"{what} has {name} {value}, give a number from {low:g} to {high:g}")
 
 
-def _check_variant(material: Material) -> None:
-    variant = material.parameters.get("variant", WARD_VARIANTS[0])
-    if variant not in WARD_VARIANTS:
-        raise RecipeError(
-            f"material {material.id} has variant {variant}, choose one of {', '.join(WARD_VARIANTS)}"
-        )
+def _check_choices(material: Material) -> None:
+    """Raise RecipeError for a word that is none of those that there are."""
+    for name, parameter in MATERIALS.get(material.model, {}).items():
+        word, words = material.parameters.get(name), parameter.choices
+        if words and word is not None and word not in words:
+            raise RecipeError(f"material {material.id} has {name} {word}, choose one of {', '.join(words)}")
 
 
 def _check_references(material: Material, materials: Mapping[str, Material]) -> None:

@@ -6,7 +6,8 @@ import numpy as np
 
 from ...scene.render_scene import IntArray
 from ...spectra import FloatArray
-from . import beckmann, fresnel
+from . import fresnel
+from .facets import Slopes
 
 # Angles of the tables, evenly spaced cosines; and how finely each is integrated over the small mirrors.
 _ANGLES, _STEPS = 64, 64
@@ -19,19 +20,21 @@ class Coats:
     Parameters
     ----------
     eta : (materials,) index inside per index outside
-    roughness : (materials,) Beckmann's
+    roughness : (materials,) of its slopes
 
     Attributes
     ----------
     inside : (materials,) share that a coat reflects of diffuse light from inside
     """
 
-    def __init__(self, eta: FloatArray, roughness: FloatArray) -> None:
+    def __init__(self, eta: FloatArray, roughness: FloatArray, slopes: Slopes) -> None:
         cosines = np.linspace(1e-6, 1, _ANGLES)
         pairs = list(zip(eta, roughness, strict=True))
-        self._through = np.array([transmitted(cosines, *pair) for pair in pairs])
+        self._through = np.array([transmitted(cosines, *pair, slopes) for pair in pairs])
         # The mean over the table, as Mitsuba 3 takes it; the integral itself is one or two per cent more.
-        self.inside = np.array([2 * np.mean(cosines * reflected(cosines, 1 / e, a)) for e, a in pairs])
+        self.inside = np.array(
+            [2 * np.mean(cosines * reflected(cosines, 1 / e, a, slopes)) for e, a in pairs]
+        )
 
     def transmitted(self, row: IntArray, cosine: FloatArray) -> FloatArray:
         """Return the share that comes in from directions with (n,) cosines to the normal."""
@@ -41,34 +44,38 @@ class Coats:
         return self._through[row, low] * (1 - part) + self._through[row, low + 1] * part
 
 
-def reflected(cosines: FloatArray, eta: float, roughness: float) -> FloatArray:
+def reflected(cosines: FloatArray, eta: float, roughness: float, slopes: Slopes) -> FloatArray:
     """Return the share that a rough clear surface reflects once, met under (n,) cosines."""
-    return _shares(cosines, eta, roughness)[:, 0]
+    return _shares(cosines, eta, roughness, slopes)[:, 0]
 
 
-def transmitted(cosines: FloatArray, eta: float, roughness: float) -> FloatArray:
+def transmitted(cosines: FloatArray, eta: float, roughness: float, slopes: Slopes) -> FloatArray:
     """Return the share that goes through at once; what is missing to 1 would be scattered more than once."""
-    return _shares(cosines, eta, roughness)[:, 1]
+    return _shares(cosines, eta, roughness, slopes)[:, 1]
 
 
-def _shares(cosines: FloatArray, eta: float, roughness: float) -> FloatArray:
+def _shares(cosines: FloatArray, eta: float, roughness: float, slopes: Slopes) -> FloatArray:
     """Return (n, 2) shares, reflected and transmitted; eta is the index behind per index before."""
     nodes, weights = np.polynomial.legendre.leggauss(_STEPS)
     u, v = np.meshgrid((nodes + 1) / 2, (np.arange(_STEPS) + 0.5) / _STEPS, indexing="ij")
     share = np.repeat(weights / 2 / _STEPS, _STEPS)
-    alpha = np.full(u.size, roughness)
-    h = beckmann.facets(u.ravel(), v.ravel(), alpha, alpha)
-    return np.array([_from(cosine, eta, alpha, h, share) for cosine in cosines])
+    way = u.ravel(), v.ravel(), np.full(u.size, roughness)
+    return np.array([_from(cosine, eta, way, share, slopes) for cosine in cosines])
 
 
-def _from(cosine: float, eta: float, alpha: FloatArray, h: FloatArray, share: FloatArray) -> FloatArray:
+def _from(
+    cosine: float, eta: float, way: tuple[FloatArray, ...], share: FloatArray, slopes: Slopes
+) -> FloatArray:
     """Return both shares for one direction: means of F G and (1 - F) G over the mirrors in sight."""
-    back = np.array([np.sqrt(1 - cosine**2), 0, cosine])[:, None]
+    u, v, alpha = way
+    back = np.array([np.sqrt(1 - cosine**2), 0, cosine])[:, None].repeat(len(u), axis=1)
+    h = slopes.facets(back, u, v, alpha, alpha)
     met = (back * h).sum(axis=0)
     reflectance, behind = fresnel.dielectric(met.clip(0, 1), np.full(len(met), eta))
     there = 2 * met * h - back
     through = (met / eta - behind) * h - back / eta
-    seen = share * np.maximum(met, 0) / h[2]
-    reflected = reflectance * beckmann.unmasked(there, alpha) * (there[2] > 0)
-    transmitted = (1 - reflectance) * beckmann.unmasked(through, alpha) * (through[2] < 0)
+    seen = share * np.maximum(met, 0) * slopes.distribution(h, alpha, alpha)
+    seen /= slopes.density(back, h, alpha, alpha)
+    reflected = reflectance * slopes.unmasked(there, alpha) * (there[2] > 0)
+    transmitted = (1 - reflectance) * slopes.unmasked(through, alpha) * (through[2] < 0)
     return np.array([seen @ reflected, seen @ transmitted]) / seen.sum()

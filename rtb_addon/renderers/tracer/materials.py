@@ -64,11 +64,11 @@ class Materials:
         self.oriented = any(_oriented(one) for one in simple)
         self.mixtures = mixtures(materials)
         kinds = [_kind(one) for one in simple]
-        present = [kind for kind in dict.fromkeys(kinds) if kind in KINDS]
+        present = [kind for kind in dict.fromkeys(kinds) if kind[0] in KINDS]
         members = {kind: [one for one in simple if _kind(one) == kind] for kind in present}
         used = {id: lookup(texture, film) for id, texture in (textures or {}).items()}
         self.textured = bool(used)
-        self._models = [KINDS[kind](members[kind], Palette(film, used)) for kind in present]
+        self._models = [KINDS[kind[0]](members[kind], Palette(film, used)) for kind in present]
         self._kind = np.array([present.index(kind) if kind in present else -1 for kind in kinds], np.int32)
         self._row = np.array([kinds[:number].count(kind) for number, kind in enumerate(kinds)], np.int32)
         # Nothing is met only where something is a mask.
@@ -87,11 +87,12 @@ class Materials:
                 yield model, where, self._row[material[where]]
 
 
-def _kind(material: Material) -> str:
-    """Return which of KINDS a material is; blends and masks are none."""
-    if material.parameters.get("roughness") != 0:
-        return material.model
-    return _SMOOTH.get(material.model, material.model)
+def _kind(material: Material) -> tuple[str, str]:
+    """Return which of KINDS a material is (blends and masks are none) and how its slopes are distributed."""
+    said = material.parameters
+    if said.get("roughness") == 0 and material.model in _SMOOTH:
+        return _SMOOTH[material.model], ""
+    return material.model, str(said.get("distribution", ""))
 
 
 def _reflects(material: Material, film: Film) -> bool:

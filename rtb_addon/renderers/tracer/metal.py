@@ -1,7 +1,7 @@
 """
 Metals, on both sides: mirrors of many small mirrors, or of one.
 
-f = F D G / (4 cos cos): Fresnel's reflectance of each band's index (fresnel.py), Beckmann's roughness.
+f = F D G / (4 cos cos): Fresnel's reflectance of each band's index (fresnel.py), mirrors as in facets.py.
 """
 
 from __future__ import annotations
@@ -10,7 +10,7 @@ from collections.abc import Sequence
 
 from ...scene.render_scene import IntArray, Material
 from ...spectra import FloatArray
-from . import beckmann, fresnel
+from . import facets, fresnel
 from .meeting import Meeting, Onward, column, weighed
 from .smooth import Single, mirrored, only_one
 from .tables import Palette, numbers
@@ -36,7 +36,7 @@ class RoughMetal:
 
     def __init__(self, materials: Sequence[Material], palette: Palette) -> None:
         self._eta, self._k = palette.colours(materials, "eta"), palette.colours(materials, "k")
-        self._roughness = numbers(materials, "roughness")
+        self._roughness, self._slopes = numbers(materials, "roughness"), facets.slopes_of(materials)
 
     def shared(self, met: Meeting) -> FloatArray | None:
         """Return None: Fresnel's reflectance goes with the angle."""
@@ -49,11 +49,11 @@ class RoughMetal:
 
     def scattered(self, met: Meeting, u: FloatArray, v: FloatArray) -> Onward:
         """Choose a small mirror."""
-        towards = beckmann.mirrored(met.back, u, v, self._roughness[met.row])
+        towards = facets.mirrored(self._slopes, met.back, u, v, self._roughness[met.row])
         value, density = self._evaluated(met, towards)
         return Onward(met.frame.world(towards), density, weighed(value, density))
 
     def _evaluated(self, met: Meeting, towards: FloatArray) -> tuple[FloatArray, FloatArray]:
-        gain, density, cosine = beckmann.reflection(met.back, towards, self._roughness[met.row])
+        gain, density, cosine = facets.reflection(self._slopes, met.back, towards, self._roughness[met.row])
         reflectance = fresnel.conductor(cosine.clip(0, 1), self._eta.at(met), self._k.at(met))
         return column(gain) * reflectance, density

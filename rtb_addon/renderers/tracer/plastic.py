@@ -19,7 +19,7 @@ import numpy as np
 
 from ...scene.render_scene import IntArray, Material
 from ...spectra import FloatArray
-from . import beckmann, fresnel
+from . import facets, fresnel
 from .coat import Coats
 from .matte import lobe, scattered
 from .meeting import Meeting, Onward, chosen, column, weighed
@@ -82,8 +82,8 @@ class RoughPlastic(_Plastic):
 
     def __init__(self, materials: Sequence[Material], palette: Palette) -> None:
         super().__init__(materials, palette)
-        self._roughness = numbers(materials, "roughness")
-        self._coats = Coats(self._eta, self._roughness)
+        self._roughness, self._slopes = numbers(materials, "roughness"), facets.slopes_of(materials)
+        self._coats = Coats(self._eta, self._roughness, self._slopes)
         self._body = 1 / (self._eta**2 * (1 - self._coats.inside))
 
     def scattered(self, met: Meeting, u: FloatArray, v: FloatArray) -> Onward:
@@ -91,14 +91,14 @@ class RoughPlastic(_Plastic):
         coat, u = chosen(self._chance(met), u)
         directions = np.where(
             coat,
-            met.frame.world(beckmann.mirrored(met.back, u, v, self._roughness[met.row])),
+            met.frame.world(facets.mirrored(self._slopes, met.back, u, v, self._roughness[met.row])),
             scattered(met.places.normals, u, v),
         )
         value, density = self._evaluated(met, met.frame.local(directions))
         return Onward(directions, density, weighed(value, density))
 
     def _evaluated(self, met: Meeting, towards: FloatArray) -> tuple[FloatArray, FloatArray]:
-        gain, density, cosine = beckmann.reflection(met.back, towards, self._roughness[met.row])
+        gain, density, cosine = facets.reflection(self._slopes, met.back, towards, self._roughness[met.row])
         gain = gain * fresnel.dielectric(cosine.clip(0, 1), self._eta[met.row])[0]
         matte = lobe(towards[2]) * (met.back[2] > 0)
         through = self._coats.transmitted(met.row, met.back[2]) * self._coats.transmitted(met.row, towards[2])

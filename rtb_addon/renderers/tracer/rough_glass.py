@@ -1,5 +1,5 @@
 """
-Rough glass: many small clear surfaces, in Beckmann's distribution.
+Rough glass: many small clear surfaces, distributed like the mirrors of facets.py.
 
 Walter, Marschner, Li and Torrance, *Microfacet Models for Refraction through Rough Surfaces*, 2007, equations
 16 to 21 and 38 to 41; what is behind is 1 / eta^2 as bright (see glass.py).
@@ -13,7 +13,7 @@ import numpy as np
 
 from ...scene.render_scene import IntArray, Material
 from ...spectra import FloatArray
-from . import beckmann, fresnel
+from . import facets, fresnel
 from .directions import dot, normalised
 from .glass import relative
 from .meeting import Meeting, Onward, chosen, column, weighed
@@ -28,7 +28,7 @@ class RoughGlass:
 
     def __init__(self, materials: Sequence[Material], palette: Palette) -> None:
         self._eta = numbers(materials, "intIOR") / numbers(materials, "extIOR")
-        self._roughness = numbers(materials, "roughness")
+        self._roughness, self._slopes = numbers(materials, "roughness"), facets.slopes_of(materials)
         self._reflectance = palette.colours(materials, "specularReflectance")
         self._transmittance = palette.colours(materials, "specularTransmittance")
 
@@ -44,7 +44,7 @@ class RoughGlass:
     def scattered(self, met: Meeting, u: FloatArray, v: FloatArray) -> Onward:
         """Choose a small surface, then whether it reflects."""
         eta, alpha = relative(self._eta, met), self._roughness[met.row]
-        h = beckmann.facets(u, v, alpha, alpha)
+        h = self._slopes.facets(met.back, u, v, alpha, alpha)
         cosine = dot(met.back, h)
         reflectance, behind = fresnel.dielectric(cosine.clip(0, 1), eta)
         # The last 16 bits say which, the first ones turned the surface.
@@ -67,11 +67,12 @@ class RoughGlass:
         share = np.where(reflected, share, 1 - share)
         # How many directions one small surface's slope stands for: the Jacobian of h.
         spread = np.where(reflected, 1 / np.where(seen, 4 * after, 1), _refracted(before, after, eta, seen))
-        d = seen * share * beckmann.distribution(h, alpha, alpha) * np.abs(spread)
-        masked = beckmann.unmasked(back, alpha) * beckmann.unmasked(towards, alpha)
-        gain = d * masked * before / np.where(seen, back[2], 1) / np.where(reflected, 1, eta**2)
+        part = seen * share * np.abs(spread)
+        masked = self._slopes.unmasked(back, alpha) * self._slopes.unmasked(towards, alpha)
+        d = self._slopes.distribution(h, alpha, alpha)
+        gain = part * d * masked * before / np.where(seen, back[2], 1) / np.where(reflected, 1, eta**2)
         colour = np.where(reflected[:, None], self._reflectance.at(met), self._transmittance.at(met))
-        return column(gain) * colour, d * h[2]
+        return column(gain) * colour, part * self._slopes.density(back, h, alpha, alpha)
 
 
 def _refracted(before: FloatArray, after: FloatArray, eta: FloatArray, seen: FloatArray) -> FloatArray:

@@ -54,7 +54,7 @@ class Ward:
     def scattered(self, met: Meeting, u: FloatArray, v: FloatArray) -> Onward:
         """Sample one of the lobes."""
         glossy, u = chosen(self._glossy[met.row], u)
-        h = beckmann.facets(u, v, self._along[met.row], self._across[met.row])
+        h = beckmann.facets(met.back, u, v, self._along[met.row], self._across[met.row])
         directions = np.where(
             glossy,
             met.frame.world(2 * dot(met.back, h) * h - met.back),
