@@ -25,6 +25,8 @@ ABSENT = Fidelity("absent")
 # Mitsuba's colours have three components, each the coefficient of a spectrum.
 _UP_TO_THREE = Fidelity("exact", "of at most three different spectra in all")
 
+_BY_TENTHS = Fidelity("exact", "up to what varies within a tenth of a band")
+
 # feature ("material matte", "light spot", "camera perspective" ...) -> renderer -> fidelity
 TABLE: Mapping[str, Mapping[str, Fidelity]] = {
     "material matte": {"mitsuba": EXACT, "tracer": EXACT, "sphere": EXACT},
@@ -48,12 +50,20 @@ TABLE: Mapping[str, Mapping[str, Fidelity]] = {
     "texture bitmap": {"mitsuba": EXACT, "tracer": EXACT},
     "camera perspective": {"mitsuba": EXACT, "tracer": EXACT},
     "camera orthographic": {"mitsuba": EXACT, "tracer": EXACT, "sphere": EXACT},
-    "lens thin": {"tracer": EXACT},
+    "lens thin": {"mitsuba": EXACT, "tracer": EXACT},
+    "film crop": {"mitsuba": EXACT},
+    "integrator roulette": {"mitsuba": EXACT},
     "filter box": {"mitsuba": EXACT, "tracer": EXACT, "sphere": EXACT},
+    "filter tent": {"mitsuba": EXACT},
+    "filter gaussian": {"mitsuba": EXACT},
+    "filter mitchell": {"mitsuba": EXACT},
+    "filter catmullrom": {"mitsuba": EXACT},
+    "filter lanczos": {"mitsuba": EXACT},
     "distribution beckmann": {"mitsuba": EXACT, "tracer": EXACT},
     "distribution ggx": {"tracer": EXACT},
     "bands averaged": {"mitsuba": EXACT, "tracer": EXACT, "sphere": EXACT},
     "bands centre": {"mitsuba": EXACT, "tracer": EXACT, "sphere": EXACT},
+    "bands mean": {"mitsuba": _BY_TENTHS},
 }
 
 

@@ -49,7 +49,7 @@ def disc(radius, corners=256):
 
 
 def globe(radius, rings=24, smooth=True):
-    """A ball of triangles with smooth normals, outside out."""
+    """A ball of triangles with smooth normals, outside out, and a map of the world's coordinates."""
     polar, azimuth = np.meshgrid(
         np.linspace(0, np.pi, rings), np.linspace(0, 2 * np.pi, 2 * rings), indexing="ij"
     )
@@ -60,7 +60,8 @@ def globe(radius, rings=24, smooth=True):
     a, b = i * 2 * rings + j, (i + 1) * 2 * rings + j
     triangles = np.concatenate([np.stack([a, b, b + 1], 1), np.stack([a, b + 1, a + 1], 1)])
     vertices = (radius * normals).astype(np.float32)
-    return Mesh(vertices, triangles.astype(np.int32), normals.astype(np.float32) if smooth else None)
+    uvs = np.stack([azimuth / (2 * np.pi), 1 - polar / np.pi], axis=-1).reshape(-1, 2).astype(np.float32)
+    return Mesh(vertices, triangles.astype(np.int32), normals.astype(np.float32) if smooth else None, uvs)
 
 
 def looking_down(height=2.0, half=1e-5, x=0.0):
@@ -107,15 +108,10 @@ def picture(one, folder, threads=1, report=lambda fraction: None, name="scene"):
 
 def kernels(one, folder, name):
     """Return how many kernels a rendering ran, and how many it had to compile."""
-    import drjit as dr
-
     # Kernels know every material that is alive: those of scenes that nobody needs any more must be gone.
     gc.collect()
-    with dr.scoped_set_flag(dr.JitFlag.KernelHistory, True):
-        dr.kernel_history_clear()
-        picture(one, folder, name=name)
-        ran = [entry for entry in dr.kernel_history() if entry["type"] == dr.KernelType.JIT]
-    return len(ran), sum(not entry["cache_hit"] for entry in ran)
+    facts = picture(one, folder, name=name).attributes
+    return int(facts["kernels"]), int(facts["kernels_compiled"])
 
 
 def mean_and_error(image):

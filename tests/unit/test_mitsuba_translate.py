@@ -215,7 +215,6 @@ def test_the_direct_integrator_is_a_path_of_depth_two(tmp_path):
 
 
 WRONG = {
-    "bands of kind mean": lambda: scene(kind="mean"),
     "depth 0": lambda: scene(depth=0),
     "texture wood, which the scene does not have": lambda: scene(reflectance=TextureUse("wood")),
     "a negative diffuseReflectance": lambda: scene(reflectance=Spectrum.constant(-0.1)),

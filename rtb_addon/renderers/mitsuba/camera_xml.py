@@ -3,6 +3,8 @@
 from __future__ import annotations
 
 import math
+from collections.abc import Mapping
+from typing import Any
 from xml.etree import ElementTree as Xml
 
 import numpy as np
@@ -38,19 +40,23 @@ def _perspective(camera: Camera, film: Film, place: str) -> tuple[Xml.Element, l
     width, height = right - left, top - bottom
     # Stock Mitsuba believes that pixels are square; this is the height of its window.
     square = width * film.height / film.width
+    shift = {"x": (left + right) / 2 / width, "y": -(bottom + top) / 2 / square}
+    lens = camera.lens_radius > 0
+    own: dict[str, Any] = {f"principal_point_offset_{axis}": part for axis, part in shift.items()}
+    if lens:
+        own = {"aperture_radius": float(camera.lens_radius), "focus_distance": float(camera.focus_distance)}
     node = element(
         "sensor",
-        "perspective",
+        "thinlens" if lens else "perspective",
         id=place,
         fov=math.degrees(2 * math.atan(width / 2)),
         fov_axis="x",
-        principal_point_offset_x=(left + right) / 2 / width,
-        principal_point_offset_y=-(bottom + top) / 2 / square,
+        **own,
         near_clip=float(camera.clip[0]),
         far_clip=float(camera.clip[1]),
     )
     node.append(matrix("to_world", camera.to_world @ HALF_TURN))
-    return node, _stretch(height / square)
+    return node, [*_stretch(height / square), *(_shift(shift) if lens else [])]
 
 
 def _stretch(stretch: float) -> list[Xml.Element]:
@@ -58,6 +64,14 @@ def _stretch(stretch: float) -> list[Xml.Element]:
         return []
     said = "The pixels are not square, which stock Mitsuba cannot do: it shows another height of the view"
     return [comment(said), Xml.Element("default", name="pixel_stretch", value=repr(stretch))]
+
+
+def _shift(shift: Mapping[str, float]) -> list[Xml.Element]:
+    if max(map(abs, shift.values())) < 1e-12:
+        return []
+    said = "The lens looks past the middle of the picture, which in stock Mitsuba no lens of some width does"
+    parts = [Xml.Element("default", name=f"shift_{axis}", value=repr(part)) for axis, part in shift.items()]
+    return [comment(said), *parts]
 
 
 def _orthographic(camera: Camera, film: Film, place: str) -> tuple[Xml.Element, list[Xml.Element]]:

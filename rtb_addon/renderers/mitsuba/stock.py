@@ -9,27 +9,28 @@ from __future__ import annotations
 import mitsuba as mi
 import numpy as np
 
-from ...spectra import FloatArray
-from ..interface import Report
+from ..interface import RenderOptions, Report
 from .native import Native
+from .rounds import Progress, Rounds, rounds_of
 
-# Paths of a pass: some tenths of a second.
+# Paths of a round: some tenths of a second.
 _PATHS = 2**17
 
 
-def render_stock(scene: mi.Scene, native: Native, report: Report) -> tuple[FloatArray, int]:
-    """Return the (height, width, bands) radiance [W sr-1 m-2 nm-1] and how many samples a pixel had."""
-    pixels = native.width * native.height
-    each = max(1, min(native.samples, _PATHS // pixels))
-    passes = -(-native.samples // each)
-    total = np.zeros((native.height, native.width, len(native.bands)))
-    samples = 0
-    for number in range(passes):
-        report(number / passes)
-        seed = (native.seed * 1_000_000_007 + number) % 2**32
-        image = np.array(mi.render(scene, spp=each, seed=seed))
-        # A sampler may round the count up.
-        total += image
-        samples += scene.sensors()[0].sampler().sample_count()
+def render_stock(scene: mi.Scene, native: Native, options: RenderOptions, report: Report) -> Rounds:
+    """Return the rounds of a picture, as many as its samples or the options want."""
+    count, each = rounds_of(native.samples, options)
+    most = max(1, _PATHS // (native.part.width * native.part.height))
+    if each > most:
+        count, each = -(-native.samples // most), most
+    sampler = scene.sensors()[0].sampler()
+    sampler.set_sample_count(each)
+    # A sampler may round the count up.
+    rounds, progress = Rounds(sampler.sample_count()), Progress(count, options, report)
+    while rounds.count < count and not progress.is_enough(rounds):
+        progress.within(rounds.count)(0.0)
+        seed = (native.seed * 1_000_000_007 + rounds.count) % 2**32
+        image = np.array(mi.render(scene, spp=each, seed=seed), float)
+        rounds.add(image.reshape(-1, image.shape[2]))
     report(1.0)
-    return (total / passes).astype(np.float32), samples
+    return rounds

@@ -6,6 +6,7 @@ This module is imported only by what renders with Mitsuba, after its variant is 
 
 from __future__ import annotations
 
+import copy
 import math
 from typing import Any
 
@@ -15,6 +16,7 @@ import numpy as np
 
 from ...spectra import BandKind, Bands, FloatArray, Spectrum
 from .arrays import floats
+from .band_parts import in_parts, parts_of
 from .loaded import LoadedScene
 from .lobes import Lobe, in_slots
 from .one_hot import Emitter, OneHotScene
@@ -43,11 +45,13 @@ class Tables:
     constants : whether a material has a part that no spectrum multiplies
     beams : whether some emitter is a spot
     suns : number of emitters that are discs in the sky
+    parts : how many parts a band has, of which each path takes one (see band_parts.py)
     single : whether there is one emitter, whose spectrum can wait until the end
     """
 
     def __init__(self, loaded: LoadedScene, source: OneHotScene, bands: Bands, kind: BandKind) -> None:
         self.padded_bands = -len(bands) % _PACKET + len(bands)
+        self.parts, self._part = parts_of(kind), None
         self.lobes, self.metals = source.lobes, source.metals
         self.constants = any(lobe.constant for lobes in source.materials.values() for lobe in lobes)
         emitters = list(source.emitters.values())
@@ -69,9 +73,9 @@ class Tables:
 
     def _fill(self, source: OneHotScene, emitters: list[Emitter], bands: Bands, kind: BandKind) -> None:
         def in_bands(spectrum) -> FloatArray:
-            return np.pad(spectrum.in_bands(bands, kind), (0, self.padded_bands - len(bands)))
+            return in_parts(spectrum, bands, kind, self.padded_bands)
 
-        black = np.zeros(self.padded_bands)
+        black = np.zeros((self.parts, self.padded_bands))
         rows = [
             [black if lobe is None else in_bands(lobe.reflectance) for lobe in in_slots(lobes, self.lobes)]
             for lobes in source.materials.values()
@@ -97,6 +101,13 @@ class Tables:
         self._sun_radiances = floats([glow / (2 * math.pi * e.narrowness) for e, glow in suns])
         self._sun_narrowness = floats([e.narrowness for e, _ in suns])
         self._sun_directions = floats([np.negative(e.axis) for e, _ in suns])
+
+    def for_parts(self, part) -> Tables:
+        """Return the tables as paths see them that take some part of each band, a mi.UInt32."""
+        there = copy.copy(self)
+        there._part = part
+        there.pictures, there.sky = self.pictures.for_parts(part), self.sky.for_parts(part)
+        return there
 
     def emitter_row(self, emitter, active) -> Any:
         """Return the row of each emitter."""
@@ -184,6 +195,8 @@ class Tables:
 
     def _bands(self, table, row, active) -> list:
         packets = self.padded_bands // _PACKET
+        if self._part is not None:
+            row = row * self.parts + self._part
         found: list[Any] = [dr.gather(mi.Vector4f, table, row * packets + k, active) for k in range(packets)]
         return [packet[k] for packet in found for k in range(_PACKET)]
 

@@ -17,20 +17,18 @@ import numpy as np
 
 from ...errors import RecipeError, RenderingError
 from ...files import write_bytes
-from ...scene.render_scene import Film, Integrator, Mesh, RenderScene, Shape
+from ...scene.render_scene import Integrator, Mesh, RenderScene, Shape
 from ..interface import Extras
 from ..native_lines import integrator_with
 from ..ply import write_mesh
 from .camera_xml import matrix, sensor
 from .environment_xml import environment
+from .film_xml import band_defaults, film
 from .lights_xml import BLACK, light
 from .lobes import take_lobes
 from .materials_xml import materials, texture_of
 from .names import Names
-from .spectrum_xml import element, format_spectrum, range_for, regular
-
-# A film that shows spectra at band centres gets bands as narrow as this around them [nm].
-_NARROW = 1.0
+from .spectrum_xml import element, format_spectrum, range_for
 
 
 def translate(scene: RenderScene, extras: Extras, folder: Path, name: str) -> Path:
@@ -44,18 +42,16 @@ def translate(scene: RenderScene, extras: Extras, folder: Path, name: str) -> Pa
 
 def scene_xml(scene: RenderScene, integrator: Integrator, folder: Path) -> Xml.Element:
     """Return the scene as an element; writes the meshes into the folder."""
-    if scene.film.band_kind == "mean":
-        raise RecipeError("Mitsuba renders no bands of kind mean yet, use averaged or centre")
     if integrator.depth < 1 or integrator.samples < 1:
         raise RecipeError(
             f"depth {integrator.depth} and {integrator.samples} samples, give 1 or more of each"
         )
     span, names = range_for(scene.film.bands), Names()
     root = Xml.Element("scene", version="3.0.0")
-    root.extend(_band_defaults(scene.film))
+    root.extend(band_defaults(scene.film))
     root.append(_integrator(integrator))
     root.append(_black(names))
-    root.extend(sensor(scene.camera, scene.film, _sampler(integrator), _film(scene.film), names))
+    root.extend(sensor(scene.camera, scene.film, _sampler(integrator), film(scene.film), names))
     root.extend(materials(scene, names, span, folder))
     _count_lobes(root)
     for shape in scene.shapes:
@@ -69,42 +65,14 @@ def scene_xml(scene: RenderScene, integrator: Integrator, folder: Path) -> Xml.E
     return root
 
 
-def _band_defaults(film: Film) -> list[Xml.Element]:
-    """Return the bands as our renderer reads them; stock Mitsuba's film follows further down."""
-    facts = {
-        "band_kind": film.band_kind,
-        "band_centres": _words(film.bands.centres),
-        "band_edges": _words(film.bands.edges),
-    }
-    return [Xml.Element("default", name=key, value=value) for key, value in facts.items()]
-
-
 def _integrator(integrator: Integrator) -> Xml.Element:
     depth = min(integrator.depth, 2) if integrator.kind == "direct" else integrator.depth
-    # Russian roulette would look at the spectra; this depth is never reached.
-    return element("integrator", "path", max_depth=depth, rr_depth=depth + 1)
+    # Stock Mitsuba's roulette looks at the spectra, ours does not. Without any, its depth is never met.
+    return element("integrator", "path", max_depth=depth, rr_depth=integrator.roulette or depth + 1)
 
 
 def _sampler(integrator: Integrator) -> Xml.Element:
     return element("sampler", "multijitter", sample_count=integrator.samples, seed=integrator.seed % 2**31)
-
-
-def _film(film: Film) -> Xml.Element:
-    node = element("film", "specfilm", width=film.width, height=film.height, component_format="float32")
-    node.append(element("rfilter", film.filter))
-    for index, (low, high) in enumerate(_responses(film)):
-        height = repr(1 / (high - low))
-        name = f"b{index:03d}_{film.bands.centres[index]:g}nm".replace(".", "_")
-        node.append(regular(name, (low, high), f"{height}, {height}"))
-    return node
-
-
-def _responses(film: Film) -> list[tuple[float, float]]:
-    """Return where each channel of the stock film begins and ends [nm]."""
-    if film.band_kind == "averaged":
-        return list(zip(film.bands.edges[:-1].tolist(), film.bands.edges[1:].tolist(), strict=True))
-    half = min(_NARROW, float(film.bands.widths.min())) / 2
-    return [(centre - half, centre + half) for centre in film.bands.centres.tolist()]
 
 
 def _black(names: Names) -> Xml.Element:
@@ -150,7 +118,3 @@ def _turned(mesh: Mesh, to_world: np.ndarray) -> Mesh:
     if np.linalg.det(to_world[:3, :3]) >= 0:
         return mesh
     return Mesh(mesh.vertices, np.ascontiguousarray(mesh.triangles[:, ::-1]), mesh.normals, mesh.uvs)
-
-
-def _words(values: np.ndarray) -> str:
-    return " ".join(repr(float(value)) for value in values)
