@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import dataclass
-from typing import Literal
+from typing import Literal, NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
@@ -13,6 +13,20 @@ FloatArray = NDArray[np.floating]
 
 # What a band's number stands for; see docs/units.md.
 BandKind = Literal["averaged", "mean", "centre"]
+
+
+class Part(NamedTuple):
+    """
+    One of equal parts of every band: what a path sees of it, where products are to be averaged.
+
+    Parameters
+    ----------
+    number : from 0
+    count : parts of a band
+    """
+
+    number: int
+    count: int
 
 
 @dataclass(frozen=True, eq=False)
@@ -45,6 +59,11 @@ class Bands:
     def widths(self) -> FloatArray:
         """(bands,) array [nm]"""
         return np.diff(self.edges)
+
+    def part(self, part: Part) -> FloatArray:
+        """Return (2, bands) lower and upper ends of one part of every band [nm]."""
+        ends = np.array([part.number, part.number + 1]) / part.count
+        return self.edges[:-1] + ends[:, None] * self.widths
 
     @classmethod
     def regular(cls, start: float, step: float, count: int) -> Bands:

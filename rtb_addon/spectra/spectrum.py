@@ -8,7 +8,7 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from ..units import Unit
-from .bands import BandKind, Bands, FloatArray
+from .bands import BandKind, Bands, FloatArray, Part
 
 # Spectra go on with their end values over this range [nm], and watts are spread over it.
 FULL_RANGE = (360.0, 830.0)
@@ -59,8 +59,11 @@ class Spectrum:
         """Return the exact integral from low to high [nm], in [unit nm]."""
         return float(np.diff(self._cumulative(np.array([low, high])))[0])
 
-    def in_bands(self, bands: Bands, kind: BandKind = "averaged") -> FloatArray:
-        """Return one value [unit] per band: its exact average, or the value at its centre."""
+    def in_bands(self, bands: Bands, kind: BandKind | Part = "averaged") -> FloatArray:
+        """Return one value [unit] per band: its exact average, that of a part of it, or its centre's."""
+        if isinstance(kind, Part):
+            ends = bands.part(kind)
+            return np.diff(self._cumulative(ends), axis=0)[0] / np.diff(ends, axis=0)[0]
         if kind == "centre":
             return self.at(bands.centres)
         return np.diff(self._cumulative(bands.edges)) / bands.widths

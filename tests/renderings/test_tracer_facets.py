@@ -151,10 +151,10 @@ def test_both_distributions_share_a_scene(tmp_path):
         lights, camera = [lamp("point", matrix((0, 0, 1)))], looking_down(1.0)
         return picture(scene(shapes, lights, materials, camera, size=(2, 1), samples=4), tmp_path)[0]
 
-    both = side_by_side("ggx", "beckmann")
-    np.testing.assert_allclose(both[0], side_by_side("ggx", "ggx")[0], rtol=1e-6)
+    both, ggx = side_by_side("ggx", "beckmann"), side_by_side("ggx", "ggx")
+    np.testing.assert_allclose(both[0], ggx[0], rtol=1e-6)
     np.testing.assert_allclose(both[1], side_by_side("beckmann", "beckmann")[1], rtol=1e-6)
-    assert abs(both[0] / both[1] - 1).min() > 0.1
+    assert abs(both[1] / ggx[1] - 1).min() > 0.1
 
 
 def test_an_unknown_distribution_is_refused(tmp_path):

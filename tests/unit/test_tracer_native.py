@@ -217,6 +217,7 @@ def test_the_tracer_never_imports_mitsuba():
         "numpy",
         "os",
         "pathlib",
+        "time",
         "typing",
     }
 
@@ -231,7 +232,7 @@ def test_random_numbers_fill_every_elementary_box(start):
 
 
 def test_each_pixel_has_numbers_of_its_own_and_all_fill_the_boxes():
-    sampler = Sampler(pixels=3, samples=16, pairs=4, seed=5, tile=2)
+    sampler = Sampler(np.array([7, 8, 9]), samples=16, pairs=4, seed=5, number=2)
     seen = set()
     for use in range(4):
         for pixel in range(3):

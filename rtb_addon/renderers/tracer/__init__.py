@@ -14,7 +14,7 @@ from pathlib import Path
 from ...scene.render_scene import RenderScene
 from ...spectral_image import SpectralImage
 from ..interface import Extras, Installed, RenderOptions, Report
-from . import integrate, native
+from . import native, passes
 
 # Goes up when a picture of the same native scene changes.
 VERSION = "1.2"
@@ -35,22 +35,21 @@ class Tracer:
         return native.translate(scene, extras, folder, name)
 
     def render(self, native_file: Path, options: RenderOptions, report: Report) -> SpectralImage:
-        """
-        Render a native scene [W sr-1 m-2 nm-1].
-
-        One thread, whatever the options say: the same file gives the same bits on every run.
-        """
+        """Render a native scene [W sr-1 m-2 nm-1]; the same file gives the same bits on every run."""
         scene = native.read(native_file)
-        radiance, kernel = integrate.render(scene, report)
+        picture = passes.render(scene, passes.Alone(scene), options, report)
         attributes = {
             "renderer": self.name,
             "renderer_version": VERSION,
             "integrator": f"{scene.integrator.kind}, depth {scene.integrator.depth}",
-            "samples": str(scene.integrator.samples),
+            "samples": str(picture.samples),
             "seed": str(scene.integrator.seed),
-            "ray_kernel": kernel,
+            "ray_kernel": picture.kernel,
         }
-        return SpectralImage(radiance, scene.film.bands, scene.film.band_kind, 1.0, attributes)
+        error = picture.standard_error
+        if error is not None:
+            attributes["noise"] = f"{passes.noise(picture.radiance, error):.4g}"
+        return SpectralImage(picture.radiance, scene.film.bands, scene.film.band_kind, 1.0, attributes, error)
 
 
 def renderer() -> Tracer:

@@ -60,11 +60,11 @@ def cross(a: FloatArray, b: FloatArray) -> FloatArray:
 
 
 def sphere(u: FloatArray, v: FloatArray) -> FloatArray:
-    """Return points spread evenly over the unit sphere, from (n,) numbers in [0, 1)."""
-    points = np.empty((3, len(u)))
+    """Return float32 points spread evenly over the unit sphere, from (n,) numbers in [0, 1)."""
+    points = np.empty((3, len(u)), np.float32)
     points[2] = 1 - 2 * u
     r = np.sqrt(1 - points[2] ** 2)
-    turn = 2 * np.pi * v
+    turn = (2 * np.pi * v).astype(np.float32)
     points[0], points[1] = r * np.cos(turn), r * np.sin(turn)
     return points
 

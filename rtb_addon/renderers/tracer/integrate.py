@@ -4,7 +4,8 @@ From the camera to the light: a path tracer over many paths at once.
 Paths leave the camera in waves. At every surface that they meet they look for a light (next-event
 estimation), then go on in a random direction, where they may find a light as well; both ways together are
 weighed by the balance heuristic (Veach and Guibas, *Optimally Combining Sampling Techniques*, 1995).
-No path ends by chance: its length is its integrator's depth.
+A path's length is its integrator's depth; from the depth called roulette it may end before, by chance. What
+its light is multiplied by in every band on the way is a Carrier's to know (carried.py).
 """
 
 from __future__ import annotations
@@ -15,40 +16,74 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from ...errors import RenderingError
-from ...scene.render_scene import Film, IntArray, RenderScene
+from ...scene.render_scene import IntArray, Integrator, RenderScene
 from ...spectra import FloatArray
-from ..interface import Report
-from .camera import rays
+from .carried import Carrier, Histories, InBands, InHistories, Light
 from .directions import dot
-from .intersect import Surfaces, best_kernel
+from .intersect import Surfaces, warm_surfaces
 from .kernels import Hits, Kernel
 from .lights import Lights
 from .materials import Materials
-from .meeting import Meeting, Model, column
+from .meeting import Meeting, Model
 from .paths import Paths
 from .sampler import Sampler
 
-# Paths in a wave: few enough that its arrays stay in the processor's cache and that
-# cancelling takes no time, enough that numpy's own overhead does not count.
-WAVE = 4096
+# How often paths go on where they may end: whatever their spectra, so that those may be changed afterwards.
+_GO_ON = 0.75
+# What a path needs random numbers for: at the camera, which is step 0, and at every step after it.
+FILM, LENS = range(2)
+LIGHT, ONWARD, PART, ROULETTE = range(4)
+_USES = 4
 
 Pair = tuple[FloatArray, FloatArray]
 
 
+class Draw(NamedTuple):
+    """
+    The random numbers of a wave.
+
+    Parameters
+    ----------
+    pixel, sample : (n,) int arrays, each path's place among those of the sampler
+    """
+
+    sampler: Sampler
+    pixel: IntArray
+    sample: IntArray
+
+    def pair(self, step: int, use: int, number: IntArray) -> Pair:
+        """Return two (n,) arrays in [0, 1) for a use of some paths at a step, 0 being the camera."""
+        return self.sampler.pair(step * _USES + use, self.pixel.take(number), self.sample.take(number))
+
+
+def pairs_needed(integrator: Integrator) -> int:
+    """Return how many pairs of random numbers a path may ask for."""
+    return depth_of(integrator) * _USES
+
+
 class World(NamedTuple):
-    """A scene, ready to be met by rays."""
+    """A scene, ready to be met by rays; it stands around zero."""
 
     surfaces: Surfaces
     materials: Materials
     lights: Lights
+    histories: Histories | None
 
     @classmethod
     def of(cls, scene: RenderScene, kernel: Callable[[FloatArray], Kernel]) -> World:
-        """Return a scene's world, its rays found by a kernel."""
+        """Return the world of a scene around zero, its rays found by a kernel."""
         materials = Materials(scene.materials, scene.film, scene.textures)
-        surfaces = Surfaces(scene.shapes, materials.numbers, kernel, materials.oriented, materials.textured)
-        return cls(surfaces, materials, Lights(scene, surfaces))
+        asked = materials.oriented, materials.textured
+        surfaces = warm_surfaces(scene.shapes, materials.numbers, kernel, *asked)
+        histories = Histories(materials.plain.spectra) if materials.plain else None
+        return cls(surfaces, materials, Lights(scene, surfaces), histories)
+
+    def carrier(self, pixels: int) -> Carrier:
+        """Return what follows the spectra along the paths of so many pixels."""
+        plain, histories = self.materials.plain, self.histories
+        if plain is None or histories is None or not self.lights.plain:
+            return InBands(self.lights, pixels)
+        return InHistories(self.lights, pixels, plain, histories)
 
     def meet(self, origins: FloatArray, directions: FloatArray, reach: FloatArray | None) -> Hits:
         """Return what rays meet first, triangles or lights that are solid."""
@@ -60,120 +95,59 @@ class World(NamedTuple):
         return self.surfaces.blocked(*way) | self.lights.spheres.block(*way)
 
 
-def render(
-    scene: RenderScene, report: Report, kernel: Callable[[FloatArray], Kernel] = best_kernel
-) -> tuple[FloatArray, str]:
-    """
-    Return the picture of a scene and the name of the ray kernel.
-
-    The picture is a (height, width, bands) float32 array [W sr-1 m-2 nm-1]. Tiles bound the memory; each
-    is summed in the same order, so the same scene gives the same bits.
-    """
-    report(0.0)
-    world = World.of(scene, kernel)
-    pixels = scene.film.width * scene.film.height
-    picture = np.empty((pixels, len(scene.film.bands)), np.float32)
-    for tile, first in enumerate(range(0, pixels, WAVE)):
-        last = min(first + WAVE, pixels)
-
-        def part(done: float, first: int = first, last: int = last) -> None:
-            report((first + done * (last - first)) / pixels)
-
-        picture[first:last] = _tile(scene, world, tile, np.arange(first, last), part)
-    _check(picture, scene.film)
-    return picture.reshape(scene.film.height, scene.film.width, -1), world.surfaces.kernel.name
-
-
-def _tile(
-    scene: RenderScene, world: World, tile: int, pixels: IntArray, report: Callable[[float], None]
-) -> FloatArray:
-    """Return the (pixels, bands) mean radiance of some pixels, a wave of samples at a time."""
-    depth, samples = _depth(scene), scene.integrator.samples
-    # The last one is for the lens.
-    uses = (2 if world.materials.mixtures is None else 3) * depth
-    sampler = Sampler(len(pixels), samples, uses, scene.integrator.seed, tile)
-    together = max(WAVE // len(pixels), 1)
-    total = np.zeros((len(pixels), len(scene.film.bands)))
-    for first in range(0, samples, together):
-        count = min(together, samples - first)
-        draw = _Draw(sampler, len(pixels), first)
-        paths = _from_camera(scene, draw, np.tile(pixels, count))
-        with np.errstate(over="ignore"):  # what overflows is infinite, and refused by _check
-            light = follow(world, paths, draw, depth)
-        total += light.reshape(count, len(pixels), -1).sum(axis=0)
-        report((first + count) / samples)
-    return total / samples
-
-
-class _Draw(NamedTuple):
-    """The random numbers of a wave: sample after sample of all pixels of a tile."""
-
-    sampler: Sampler
-    pixels: int
-    first: int
-
-    def pair(self, use: int, number: IntArray) -> Pair:
-        sample, pixel = np.divmod(number, self.pixels)
-        return self.sampler.pair(use, pixel, self.first + sample)
-
-
-def _from_camera(scene: RenderScene, draw: _Draw, pixels: IntArray) -> Paths:
-    """Return paths through random places of pixels: the box filter."""
-    film = scene.film
-    number = np.arange(len(pixels))
-    u, v = draw.pair(0, number)
-    row, column = np.divmod(pixels, film.width)
-    lens = draw.pair(-1, number) if scene.camera.lens_radius else None
-    origins, directions, reach = rays(scene.camera, (column + u) / film.width, (row + v) / film.height, lens)
-    throughput = np.ones((len(pixels), len(film.bands)), np.float32)
-    return Paths(number, origins, directions, reach, np.full(len(pixels), np.inf), throughput)
-
-
-def follow(world: World, paths: Paths, draw: _Draw, depth: int) -> FloatArray:
-    """Follow paths to the end and return the (paths, bands) radiance that they found."""
-    found = np.zeros_like(paths.throughput)
+def follow(world: World, paths: Paths, draw: Draw, integrator: Integrator, carrier: Carrier) -> None:
+    """Follow paths to the end; the carrier takes the light that they find."""
+    depth = depth_of(integrator)
     for step in range(1, depth + 1):
         hits = world.meet(paths.origins, paths.directions, paths.reach)
-        _add_met(world, paths, hits, found)
+        _bring_met(world, paths, hits, carrier)
         if step == depth:
             break
-        meetings = _met_surfaces(world, paths, hits, draw, 2 * depth - 2 + step)
+        meetings = _met_surfaces(world, paths, hits, draw, step, carrier)
         # What is not needed any more makes room in the processor's cache.
         del paths, hits
-        paths = _gone_on(world, meetings, draw, step, found)
+        paths = _gone_on(world, meetings, draw, step, carrier)
+        if integrator.roulette and step + 1 >= integrator.roulette:
+            paths = paths.only(np.nonzero(draw.pair(step, ROULETTE, paths.number)[0] < _GO_ON)[0])
+            carrier.gain /= _GO_ON
         if not len(paths.number):
             break
-    return found
+    carrier.end()
 
 
-def _add_met(world: World, paths: Paths, hits: Hits, found: FloatArray) -> None:
+def depth_of(integrator: Integrator) -> int:
+    """Return the length of the longest paths; direct light is a path of two."""
+    return min(integrator.depth, 2) if integrator.kind == "direct" else integrator.depth
+
+
+def _bring_met(world: World, paths: Paths, hits: Hits, carrier: Carrier) -> None:
     """
-    Add the lights that paths met by themselves.
+    Bring the lights that paths met by themselves.
 
     The balance heuristic: scattering chose this direction with one density, looking for a light
     would have with a rival one, so it counts for density / (density + rival).
     """
     for rows, row, strength, rival in world.lights.met(hits, paths.origins, paths.directions):
         if len(rows):
-            light = world.lights.coming(row, paths.directions.take(rows, axis=1))
-            light *= column(strength / (1 + rival / paths.density[rows]))
-            _add(paths, rows, light, found)
+            strength = strength / (1 + rival / paths.density.take(rows))
+            light = Light(rows, row, paths.directions.take(rows, axis=1), strength[:, None])
+            carrier.bring(paths, light)
 
 
 def _gone_on(
-    world: World, meetings: list[tuple[Model, Paths, Meeting]], draw: _Draw, step: int, found: FloatArray
+    world: World, meetings: list[tuple[Model, Paths, Meeting]], draw: Draw, step: int, carrier: Carrier
 ) -> Paths:
     """Look for lights from where paths met surfaces, and return the paths that go on."""
     parts = []
     while meetings:
         model, paths, met = meetings.pop()
-        _add_sampled(world, paths, model, met, draw.pair(2 * step - 1, paths.number), found)
-        parts.append(_scattered(paths, model, met, draw.pair(2 * step, paths.number)))
-    return Paths.joined(parts, len(world.lights.spectra[0]))
+        _bring_sampled(world, paths, model, met, draw.pair(step, LIGHT, paths.number), carrier)
+        parts.append(_scattered(paths, model, met, draw.pair(step, ONWARD, paths.number), carrier))
+    return Paths.joined(parts)
 
 
 def _met_surfaces(
-    world: World, paths: Paths, hits: Hits, draw: _Draw, use: int
+    world: World, paths: Paths, hits: Hits, draw: Draw, step: int, carrier: Carrier
 ) -> list[tuple[Model, Paths, Meeting]]:
     """
     Return the paths that met a surface which is not black, by how it scatters, and what they met.
@@ -183,25 +157,24 @@ def _met_surfaces(
     rows = np.nonzero(hits.triangle >= 0)[0]
     material = world.surfaces.material.take(hits.triangle.take(rows))
     if world.materials.mixtures is not None:
-        material = world.materials.mixtures.one_of(material, draw.pair(use, paths.number[rows])[0])
+        number = draw.pair(step, PART, paths.number.take(rows))[0]
+        material = world.materials.mixtures.one_of(material, number)
     bright = world.materials.reflects.take(material)
     rows, material = rows[bright], material[bright]
     meetings = []
     for model, where, row in world.materials.sorted(material):
         theirs, some = paths.only(rows[where]), hits.only(rows[where])
-        met = Meeting(row, world.surfaces.places(some, theirs.directions), theirs.directions)
-        if (factor := model.shared(met)) is not None:
-            # In place even where nothing was left out: nobody asks for the paths as they came.
-            np.multiply(theirs.throughput, factor, out=theirs.throughput)
-        meetings.append((model, theirs, met))
+        met = Meeting(row, world.surfaces.places(some, theirs.directions), theirs.directions, theirs.band)
+        # In place even where nothing was left out: nobody asks for the paths as they came.
+        meetings.append((model, theirs._replace(carried=carrier.met(theirs, model, met)), met))
     return meetings
 
 
-def _add_sampled(
-    world: World, paths: Paths, model: Model, met: Meeting, draw: Pair, found: FloatArray
+def _bring_sampled(
+    world: World, paths: Paths, model: Model, met: Meeting, draw: Pair, carrier: Carrier
 ) -> None:
     """
-    Look for a light from every place, and add it where the way is free.
+    Look for a light from every place, and bring it where the way is free.
 
     f cos / density, times the balance heuristic density / (density + rival) where scattering could have
     met the light as well; the rival density is that of scattering.
@@ -216,44 +189,19 @@ def _add_sampled(
     rows, directions = rows.take(free), directions.take(free, axis=1)
     value, rival = model.evaluate(met, rows, sample.directions)
     strength = sample.strength.take(rows) / (sample.density.take(rows) + sample.extended.take(rows) * rival)
-    light = world.lights.coming(sample.row.take(rows), directions)
-    light *= value * column(strength)
-    _add(paths, rows, light, found)
+    light = Light(rows, sample.row.take(rows), directions, value * strength[:, None])
+    carrier.bring(paths, light, lambda coming: model.turned(met, rows, coming))
 
 
-def _add(paths: Paths, rows: IntArray, light: FloatArray, found: FloatArray) -> None:
-    """Add the (n, bands) light that comes to some paths, times their throughput; band by band."""
-    light *= paths.throughput.take(rows, axis=0)
-    found[paths.number.take(rows)] += light
-
-
-def _scattered(paths: Paths, model: Model, met: Meeting, draw: Pair) -> Paths:
+def _scattered(paths: Paths, model: Model, met: Meeting, draw: Pair, carrier: Carrier) -> Paths:
     """Return paths that go on in random directions; those that would go through an opaque surface end."""
-    directions, density, weight = model.scattered(met, *draw)
+    directions, density, weight, band = model.scattered(met, *draw)
     side = dot(met.places.faces, directions)
-    throughput = paths.throughput if weight is None else paths.throughput * weight
-    onward = Paths(paths.number, _starts(met, model, side), directions, None, density, throughput)
+    carried, band = carrier.scattered(paths, weight), paths.band if band is None else band
+    onward = Paths(paths.number, _starts(met, model, side), directions, None, density, carried, band)
     return onward.only(np.nonzero(((side > 0) | model.transmits) & (density > 0))[0])
 
 
 def _starts(met: Meeting, model: Model, side: FloatArray) -> FloatArray:
     """Return where rays start that leave to a side: 1 where the path came from, -1 the other."""
     return np.where(side > 0, met.places.start, met.places.behind) if model.transmits else met.places.start
-
-
-def _depth(scene: RenderScene) -> int:
-    """Return the length of the longest paths; direct light is a path of two."""
-    depth = scene.integrator.depth
-    return min(depth, 2) if scene.integrator.kind == "direct" else depth
-
-
-def _check(picture: FloatArray, film: Film) -> None:
-    """Raise RenderingError for radiance that cannot be."""
-    wrong = np.argwhere(~(picture >= 0) | ~np.isfinite(picture))
-    if len(wrong):
-        pixel, band = wrong[0]
-        row, column = divmod(int(pixel), film.width)
-        raise RenderingError(
-            f"the radiance at row {row}, column {column} is {picture[pixel, band]:g} at"
-            f" {film.bands.centres[band]:g} nm, look for a light too bright or too near"
-        )

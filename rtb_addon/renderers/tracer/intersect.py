@@ -1,20 +1,21 @@
 """
 Where rays meet surfaces.
 
-Embree (or bvh.py) says which triangle a ray meets, in single precision; the place on it is computed
-in double precision from the triangle itself, so that it lies on the surface however far away
-the camera or a light may be.
+Embree (or bvh.py) says which triangle a ray meets; the place on it is computed from the triangle itself, so
+that it lies on the surface however far away the camera or a light may be. All in single precision, which is
+finest around zero: the scene has been moved there (around_zero).
 """
 
 from __future__ import annotations
 
 from collections.abc import Callable, Mapping, Sequence
+from dataclasses import replace
 from typing import NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
 
-from ...scene.render_scene import IntArray, Shape
+from ...scene.render_scene import IntArray, RenderScene, Shape
 from ...spectra import FloatArray
 from .bvh import Bvh
 from .directions import cross, dot, normalised
@@ -31,6 +32,47 @@ def best_kernel(corners: FloatArray) -> Kernel:
         return Embree(corners)
     except ImportError:
         return Bvh(corners)
+
+
+def around_zero(scene: RenderScene) -> RenderScene:
+    """Return a scene moved so that the middle of its shapes is the origin."""
+    corners = [shape.to_world[:3, :3] @ _bounds(shape) + shape.to_world[:3, 3:] for shape in scene.shapes]
+    if not corners:
+        return scene
+    whole = np.concatenate(corners, axis=1)
+    middle = (whole.min(axis=1) + whole.max(axis=1)) / 2
+
+    def moved(to_world: FloatArray) -> FloatArray:
+        out = to_world.astype(float)
+        out[:3, 3] -= middle
+        return out
+
+    return replace(
+        scene,
+        camera=replace(scene.camera, to_world=moved(scene.camera.to_world)),
+        shapes=tuple(replace(one, to_world=moved(one.to_world)) for one in scene.shapes),
+        lights=tuple(replace(one, to_world=moved(one.to_world)) for one in scene.lights),
+    )
+
+
+# The surfaces of the last scene: conditions that differ in spectra have them in common.
+_warm: dict[tuple, Surfaces] = {}
+
+
+def warm_surfaces(
+    shapes: Sequence[Shape],
+    materials: Mapping[str, int],
+    make: Callable[[FloatArray], Kernel],
+    oriented: bool,
+    textured: bool,
+) -> Surfaces:
+    """Return the Surfaces of these, the last ones once more if they are the same."""
+    placed = [(one.mesh.digest, one.to_world.tobytes(), materials[one.material]) for one in shapes]
+    key = tuple(placed), make, oriented, textured
+    if key not in _warm:
+        _warm.clear()
+        _warm[key] = Surfaces(shapes, materials, make, oriented, textured)
+    return _warm[key]
 
 
 class Places(NamedTuple):
@@ -84,7 +126,7 @@ class Surfaces:
     Attributes
     ----------
     corners : (3, 3, triangles) float64 array [m]: corner, axis, triangle
-    normals : (3, triangles) unit normals; a triangle without area has none
+    normals : (3, triangles) float32 unit normals; a triangle without area has none
     lift : (triangles,) distance from each [m] at which single precision tells a place from its surface
     shape, material : (triangles,) int32 arrays, numbers of its shape and material
     kernel : what finds them
@@ -110,15 +152,16 @@ class Surfaces:
         self.corners = _joined([_corners(shape) for shape in shapes])
         one, two = self.corners[1] - self.corners[0], self.corners[2] - self.corners[0]
         sides = np.array([_side(shape) for shape in shapes]).take(self.shape)
-        self.normals = normalised(cross(one, two)) * sides
+        normals = normalised(cross(one, two)) * sides
+        self.normals = normals.astype(np.float32)
         self._smooth = _shading_normals(shapes, self.normals)
         self._uvs = corner_uvs(shapes) if textured else None
-        self._tangents = along_u(shapes, self.normals, one, two) if oriented else None
-        self._centre = self._middle()
-        self.lift = np.abs(self.corners - self._centre).max(axis=(0, 1), initial=0) * _LIFT
+        self._tangents = along_u(shapes, normals, one, two) if oriented else None
+        self.lift = np.abs(self.corners).max(axis=(0, 1), initial=0) * _LIFT
         # One table, since one gather is quicker than many: a corner, two edges, normal and lift.
-        self._table = np.concatenate([self.corners[0], one, two, self.normals, self.lift[None]])
-        self.kernel = make((self.corners - self._centre).transpose(2, 0, 1).astype(np.float32))
+        table = np.concatenate([self.corners[0], one, two, normals, self.lift[None]])
+        self._table = table.astype(np.float32)
+        self.kernel = make(self.corners.transpose(2, 0, 1).astype(np.float32))
 
     def meet(self, origins: FloatArray, directions: FloatArray, reach: FloatArray | None = None) -> Hits:
         """
@@ -130,17 +173,18 @@ class Surfaces:
         reach : (n,) array [m], or None for rays without end
         """
         limit = None if reach is None else np.array(reach, np.float32)
-        return self.kernel.closest(*self._single(origins, directions), limit)
+        return self.kernel.closest(_in_rows(origins), _in_rows(directions), limit)
 
     def blocked(self, origins: FloatArray, directions: FloatArray, reach: FloatArray) -> NDArray[np.bool_]:
         """Return which rays (as in meet) meet a surface before their reach."""
-        return self.kernel.blocked(*self._single(origins, directions), np.array(reach, np.float32))
+        reach = np.array(reach, np.float32)
+        return self.kernel.blocked(_in_rows(origins), _in_rows(directions), reach)
 
     def places(self, hits: Hits, directions: FloatArray) -> Places:
         """Return where rays met surfaces; every one of them must have met one."""
         rows = self._table.take(hits.triangle, axis=1)
         points = rows[0:3] + hits.u * rows[3:6] + hits.v * rows[6:9]
-        side = np.where(dot(rows[9:12], directions) < 0, 1.0, -1.0)
+        side = np.where(dot(rows[9:12], directions) < 0, np.float32(1), np.float32(-1))
         faces = side * rows[9:12]
         normals = faces
         if self._smooth is not None:
@@ -157,20 +201,19 @@ class Surfaces:
 
     def radius(self) -> float:
         """Return the radius [m] of a sphere around everything; 1 when there is nothing."""
-        return float(np.linalg.norm(self.corners - self._centre, axis=1).max(initial=0)) or 1.0
+        return float(np.linalg.norm(self.corners, axis=1).max(initial=0)) or 1.0
 
-    def _middle(self) -> FloatArray:
-        """Return the middle of everything [m] as a column: single precision is finest around zero."""
-        if not len(self.shape):
-            return np.zeros((3, 1))
-        return (self.corners.min(axis=(0, 2)) + self.corners.max(axis=(0, 2)))[:, None] / 2
 
-    def _single(self, origins: FloatArray, directions: FloatArray) -> tuple[FloatArray, FloatArray]:
-        """Return rays as kernels want them, (n, 3) arrays around the middle."""
-        return (
-            np.ascontiguousarray((origins - self._centre).T, np.float32),
-            np.ascontiguousarray(directions.T, np.float32),
-        )
+def _in_rows(vectors: FloatArray) -> FloatArray:
+    """Return vectors as kernels want them, (n, 3) float32 arrays."""
+    return np.ascontiguousarray(vectors.T, np.float32)
+
+
+def _bounds(shape: Shape) -> FloatArray:
+    """Return the (3, 8) corners of the box around a mesh, in its own space."""
+    used = shape.mesh.vertices[shape.mesh.triangles.ravel()].astype(float)
+    sides = np.stack([used.min(axis=0), used.max(axis=0)])
+    return np.array([sides[[a, b, c], [0, 1, 2]] for a in (0, 1) for b in (0, 1) for c in (0, 1)]).T
 
 
 def _corners(shape: Shape) -> FloatArray:

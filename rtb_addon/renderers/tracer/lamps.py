@@ -49,7 +49,7 @@ class Sample(NamedTuple):
 
     directions: FloatArray
     reach: FloatArray
-    row: NDArray[np.int32]
+    row: IntArray
     strength: FloatArray
     density: FloatArray
     extended: FloatArray
@@ -97,14 +97,16 @@ class Triangles:
         self.triangle, self.area = shining[kept], area[kept]
         self.rows, self.powers = row_of[self.triangle], np.pi * self.area
         normals, lift = surfaces.normals[:, shining], surfaces.lift[shining]
-        self._table = np.concatenate([corner, one, two, normals, area[None], lift[None]])[:, kept]
+        table = np.concatenate([corner, one, two, normals, area[None], lift[None]])[:, kept]
+        self._table = table.astype(np.float32)
 
     def sample(self, which: IntArray, points: FloatArray, u: FloatArray, v: FloatArray) -> Sample:
         """Sample evenly over the area: Turk 1990, *Generating Random Points in Triangles*, method 2."""
         root = np.sqrt(1 - u)
+        first, second = (1 - root).astype(np.float32), (v * root).astype(np.float32)
         table = self._table.take(which, axis=1)
-        way = table[0:3] + (1 - root) * table[3:6] + (v * root) * table[6:9] - points
-        distance = np.maximum(length(way), 1e-30)
+        way = table[0:3] + first * table[3:6] + second * table[6:9] - points
+        distance = np.maximum(length(way), np.float32(1e-30))
         way /= distance
         cosine = -dot(table[9:12], way)
         shines = cosine > 0
@@ -112,7 +114,8 @@ class Triangles:
         density = distance**2 / (cosine * table[12])
         # As rays start a little above a surface, they end a little above this one.
         reach = np.maximum(distance - table[13] / cosine, 0)
-        return Sample(way, reach, self.rows[which], shines * 1.0, density, np.ones(len(u)))
+        ones = np.ones(len(u), np.float32)
+        return Sample(way, reach, self.rows.take(which), shines * ones, density, ones)
 
 
 class _Beams:

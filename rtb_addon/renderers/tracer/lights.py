@@ -49,6 +49,7 @@ class Lights:
     ----------
     spectra : (rows, bands) float32 array, in the unit of each kind of light; the environment's is last
     spheres : lights that are solid
+    plain : whether the spectrum of each light is the same in all directions
     """
 
     def __init__(self, scene: RenderScene, surfaces: Surfaces) -> None:
@@ -67,6 +68,7 @@ class Lights:
         groups = self._triangles, self._lamps, self._spheres, self._suns, self._skies
         self._groups: tuple[Group, ...] = groups
         self._environment = scene.environment is not None
+        self.plain = not len(self._skies.rows)
         self._choose()
 
     def sample(self, points: FloatArray, u: FloatArray, v: FloatArray) -> Sample | None:

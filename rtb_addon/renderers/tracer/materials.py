@@ -8,6 +8,7 @@ wherever a path meets it, one of them.
 from __future__ import annotations
 
 from collections.abc import Callable, Iterator, Mapping, Sequence
+from typing import NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
@@ -42,6 +43,20 @@ KINDS: dict[str, Callable[[Sequence[Material], Palette], Model]] = {
 _SMOOTH = {"metal": "smooth metal", "roughplastic": "plastic", "roughglass": "glass"}
 
 
+class Plain(NamedTuple):
+    """
+    Materials that scatter one spectrum each, times numbers.
+
+    Parameters
+    ----------
+    spectra : (rows, bands) float32 array
+    first : the row of each kind's first material
+    """
+
+    spectra: NDArray[np.float32]
+    first: Mapping[Model, int]
+
+
 class Materials:
     """
     The materials of a scene by number, and after them nothing, what masks let through.
@@ -53,6 +68,7 @@ class Materials:
     oriented : whether some material has a direction of its own on the surface
     textured : whether some material has a texture
     mixtures : what materials that are made of others are on average, None where none is
+    plain : the spectra of all, None where some scatter more than one spectrum times numbers
     """
 
     def __init__(
@@ -71,6 +87,8 @@ class Materials:
         self._models = [KINDS[kind[0]](members[kind], Palette(film, used)) for kind in present]
         self._kind = np.array([present.index(kind) if kind in present else -1 for kind in kinds], np.int32)
         self._row = np.array([kinds[:number].count(kind) for number, kind in enumerate(kinds)], np.int32)
+        self.parts = any(model.parts for model in self._models)
+        self.plain = _plain(self._models)
         # Nothing is met only where something is a mask.
         self._alone = len(present) == 2 and self.mixtures is None
 
@@ -85,6 +103,16 @@ class Materials:
             where = np.nonzero(kind == number)[0]
             if len(where):
                 yield model, where, self._row[material[where]]
+
+
+def _plain(models: Sequence[Model]) -> Plain | None:
+    """Return the spectra of kinds of materials that have no more than one each, None where others are."""
+    plain = (one.plain if isinstance(one, Matte | Mirror | Nothing) else None for one in models)
+    spectra = [each for each in plain if each is not None]
+    if len(spectra) < len(models):
+        return None
+    first = np.cumsum([0, *map(len, spectra[:-1])])
+    return Plain(np.concatenate(spectra), dict(zip(models, first.tolist(), strict=True)))
 
 
 def _kind(material: Material) -> tuple[str, str]:

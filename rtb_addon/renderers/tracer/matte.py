@@ -9,18 +9,16 @@ import numpy as np
 from ...scene.render_scene import IntArray, Material
 from ...spectra import FloatArray
 from .directions import dot, normalised, sphere
-from .meeting import Meeting, Onward, column
+from .meeting import Meeting, Model, Onward, column
 from .tables import Palette
 
 
-class Matte:
+class Matte(Model):
     """Lambert's surfaces. Their spectrum is shared by all that they scatter; the rest is one number."""
-
-    single = False
-    transmits = False
 
     def __init__(self, materials: Sequence[Material], palette: Palette) -> None:
         self._reflectance = palette.colours(materials, "diffuseReflectance")
+        self.plain = self._reflectance.plain
 
     def shared(self, met: Meeting) -> FloatArray:
         """Return the reflectance."""

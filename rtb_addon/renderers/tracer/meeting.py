@@ -7,17 +7,22 @@ the spectra of a scene never decide where a path goes.
 
 from __future__ import annotations
 
+from abc import ABC, abstractmethod
+from collections.abc import Sequence
 from dataclasses import dataclass
 from functools import cached_property
-from typing import NamedTuple, Protocol
+from typing import TYPE_CHECKING, NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
 
-from ...scene.render_scene import IntArray
+from ...scene.render_scene import IntArray, Material
 from ...spectra import FloatArray
 from .directions import Frame
 from .intersect import Places
+
+if TYPE_CHECKING:
+    from .tables import Palette
 
 
 @dataclass(frozen=True, eq=False)
@@ -30,16 +35,18 @@ class Meeting:
     row : (n,) int array, each surface's row among the materials of its kind
     places : where that was
     directions : (3, n) unit vectors along which the paths came
+    band : (n,) int array, the paths' Paths.band; None where all paths are of all bands
     """
 
     row: IntArray
     places: Places
     directions: FloatArray
+    band: IntArray | None = None
 
     @cached_property
     def frame(self) -> Frame:
         """Each place's own axes; the third is the normal on the side that the path came from."""
-        return Frame.about(self.places.normals, self.places.tangents)
+        return Frame.about(self.places.normals.astype(float), self.places.tangents)
 
     @cached_property
     def back(self) -> FloatArray:
@@ -50,7 +57,8 @@ class Meeting:
         """Return some of them, in this order."""
         if len(rows) == len(self.row):
             return self
-        return Meeting(self.row[rows], self.places.only(rows), self.directions.take(rows, axis=1))
+        band = None if self.band is None else self.band.take(rows)
+        return Meeting(self.row[rows], self.places.only(rows), self.directions.take(rows, axis=1), band)
 
 
 class Onward(NamedTuple):
@@ -62,14 +70,16 @@ class Onward(NamedTuple):
     directions : (3, n) unit vectors
     density : (n,) of the direction [sr-1]; infinite where it was the only one, 0 where the path ends
     weight : (n, bands or 1) array, f cos / density, without what Model.shared says; None where that is 1
+    band : (n,) int array, the Paths.band of what goes on; None where it is as it was
     """
 
     directions: FloatArray
     density: FloatArray
     weight: FloatArray | None = None
+    band: IntArray | None = None
 
 
-class Model(Protocol):
+class Model(ABC):
     """
     A kind of material: all materials of a scene that scatter by the same formulas.
 
@@ -77,15 +87,21 @@ class Model(Protocol):
     ----------
     single : it scatters into single directions only, so that looking for a light is in vain
     transmits : light goes through
+    parts : it may leave a path to one of its bands, see Paths.band
     """
 
-    single: bool
-    transmits: bool
+    single = False
+    transmits = False
+    parts = False
+
+    @abstractmethod
+    def __init__(self, materials: Sequence[Material], palette: Palette) -> None: ...
 
     def shared(self, met: Meeting) -> FloatArray | None:
         """Return the (n, bands) factor of all that a surface scatters, None where there is none."""
-        ...
+        return None
 
+    @abstractmethod
     def evaluate(self, met: Meeting, rows: IntArray, towards: FloatArray) -> tuple[FloatArray, FloatArray]:
         """
         Return f cos and the density [sr-1] of scattered() at some of the places.
@@ -97,11 +113,14 @@ class Model(Protocol):
         rows : (m,) int array, which places
         towards : (3, n) unit vectors, one from every place
         """
-        ...
 
+    def turned(self, met: Meeting, rows: IntArray, light: FloatArray) -> FloatArray:
+        """Return the (m, bands) light that leaves some of the places for what came in."""
+        return light
+
+    @abstractmethod
     def scattered(self, met: Meeting, u: FloatArray, v: FloatArray) -> Onward:
         """Return a direction from each place for (n,) random numbers in [0, 1)."""
-        ...
 
 
 def chosen(chance: FloatArray, u: FloatArray) -> tuple[NDArray[np.bool_], FloatArray]:

@@ -11,7 +11,7 @@ from collections.abc import Sequence
 from ...scene.render_scene import IntArray, Material
 from ...spectra import FloatArray
 from . import facets, fresnel
-from .meeting import Meeting, Onward, column, weighed
+from .meeting import Meeting, Model, Onward, column, weighed
 from .smooth import Single, mirrored, only_one
 from .tables import Palette, numbers
 
@@ -28,19 +28,12 @@ class SmoothMetal(Single):
         return Onward(mirrored(met), only_one(met), weight)
 
 
-class RoughMetal:
+class RoughMetal(Model):
     """Metals with a roughness."""
-
-    single = False
-    transmits = False
 
     def __init__(self, materials: Sequence[Material], palette: Palette) -> None:
         self._eta, self._k = palette.colours(materials, "eta"), palette.colours(materials, "k")
         self._roughness, self._slopes = numbers(materials, "roughness"), facets.slopes_of(materials)
-
-    def shared(self, met: Meeting) -> FloatArray | None:
-        """Return None: Fresnel's reflectance goes with the angle."""
-        return None
 
     def evaluate(self, met: Meeting, rows: IntArray, towards: FloatArray) -> tuple[FloatArray, FloatArray]:
         """Return F D G / (4 cos), and the density of scattered()."""

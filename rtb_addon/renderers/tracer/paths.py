@@ -6,6 +6,7 @@ from collections.abc import Sequence
 from typing import NamedTuple
 
 import numpy as np
+from numpy.typing import NDArray
 
 from ...scene.render_scene import IntArray
 from ...spectra import FloatArray
@@ -21,7 +22,9 @@ class Paths(NamedTuple):
     origins, directions : (3, n) arrays [m]
     reach : (n,) how far they see [m]; None without end
     density : (n,) of the direction [sr-1]; infinite where no light could have been chosen instead
-    throughput : (n, bands) float32 array, radiance seen per radiance met
+    carried : array of n, what a Carrier keeps of the spectra that each met
+    band : (n,) int array, the one band that a path is of, where glass or fluorescence made it choose: what it
+        meets counts as it is there; -1 where each band that it carries sees its own. None: so they all are
     """
 
     number: IntArray
@@ -29,7 +32,8 @@ class Paths(NamedTuple):
     directions: FloatArray
     reach: FloatArray | None
     density: FloatArray
-    throughput: FloatArray
+    carried: NDArray
+    band: IntArray | None = None
 
     def only(self, rows: IntArray) -> Paths:
         """Return some of them, in this order."""
@@ -43,23 +47,36 @@ class Paths(NamedTuple):
             self.directions.take(rows, axis=1),
             reach,
             self.density.take(rows),
-            self.throughput.take(rows, axis=0),
+            self.carried.take(rows, axis=0),
+            None if self.band is None else self.band.take(rows),
         )
 
+    def seen(self, values: FloatArray, rows: IntArray | None = None) -> FloatArray:
+        """Return (n, bands or 1) numbers as all or some paths see them: those of one band in that alone."""
+        if self.band is None or values.shape[1] == 1:
+            return values
+        band = self.band if rows is None else self.band.take(rows)
+        alone = np.nonzero(band >= 0)[0]
+        if len(alone):
+            values = values.copy()
+            values[alone] = values[alone, band[alone]][:, None]
+        return values
+
     @classmethod
-    def joined(cls, parts: Sequence[Paths], bands: int) -> Paths:
-        """Return all paths of some parts, or none of so many bands; none of them still has a reach."""
+    def joined(cls, parts: Sequence[Paths]) -> Paths:
+        """Return all paths of some parts, or none; none of them still has a reach."""
         if len(parts) == 1:
             return parts[0]
         if not parts:
             way, none = np.empty((3, 0)), np.empty(0)
-            return cls(np.empty(0, int), way, way, None, none, np.empty((0, bands), np.float32))
-        number, origins, directions, _, density, throughput = zip(*parts, strict=True)
+            return cls(np.empty(0, int), way, way, None, none, none)
+        number, origins, directions, _, density, carried, band = zip(*parts, strict=True)
         return cls(
             np.concatenate(number),
             np.concatenate(origins, axis=1),
             np.concatenate(directions, axis=1),
             None,
             np.concatenate(density),
-            np.concatenate(throughput),
+            np.concatenate(carried),
+            None if band[0] is None else np.concatenate(band),
         )

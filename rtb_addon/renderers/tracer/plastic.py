@@ -12,7 +12,7 @@ the body were white between the first and the last time.
 
 from __future__ import annotations
 
-from abc import ABC, abstractmethod
+from abc import abstractmethod
 from collections.abc import Sequence
 
 import numpy as np
@@ -22,24 +22,17 @@ from ...spectra import FloatArray
 from . import facets, fresnel
 from .coat import Coats
 from .matte import lobe, scattered
-from .meeting import Meeting, Onward, chosen, column, weighed
+from .meeting import Meeting, Model, Onward, chosen, column, weighed
 from .smooth import mirrored
 from .tables import Palette, numbers
 
 
-class _Plastic(ABC):
+class _Plastic(Model):
     """What smooth and rough plastics share."""
-
-    single = False
-    transmits = False
 
     def __init__(self, materials: Sequence[Material], palette: Palette) -> None:
         self._eta = numbers(materials, "intIOR") / numbers(materials, "extIOR")
         self._diffuse = palette.colours(materials, "diffuseReflectance")
-
-    def shared(self, met: Meeting) -> FloatArray | None:
-        """Return None: the coat's reflection has no colour."""
-        return None
 
     def evaluate(self, met: Meeting, rows: IntArray, towards: FloatArray) -> tuple[FloatArray, FloatArray]:
         """Return f cos, without a smooth coat's reflection, and the density of scattered()."""

@@ -16,14 +16,13 @@ from ...spectra import FloatArray
 from . import facets, fresnel
 from .directions import dot, normalised
 from .glass import relative
-from .meeting import Meeting, Onward, chosen, column, weighed
+from .meeting import Meeting, Model, Onward, chosen, column, weighed
 from .tables import Palette, numbers
 
 
-class RoughGlass:
+class RoughGlass(Model):
     """Rough surfaces of solid glass."""
 
-    single = False
     transmits = True
 
     def __init__(self, materials: Sequence[Material], palette: Palette) -> None:
@@ -31,10 +30,6 @@ class RoughGlass:
         self._roughness, self._slopes = numbers(materials, "roughness"), facets.slopes_of(materials)
         self._reflectance = palette.colours(materials, "specularReflectance")
         self._transmittance = palette.colours(materials, "specularTransmittance")
-
-    def shared(self, met: Meeting) -> FloatArray | None:
-        """Return None: either way has a colour of its own."""
-        return None
 
     def evaluate(self, met: Meeting, rows: IntArray, towards: FloatArray) -> tuple[FloatArray, FloatArray]:
         """Return f cos, and the density of scattered()."""

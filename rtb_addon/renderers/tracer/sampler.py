@@ -2,7 +2,8 @@
 Random numbers that spread evenly over a pixel's samples.
 
 A (0, 2)-sequence (van der Corput and Sobol), scrambled per pixel and shuffled per use: Kollig and Keller,
-*Efficient Multidimensional Sampling*, 2002. They depend on seed, tile, pixel and sample alone.
+*Efficient Multidimensional Sampling*, 2002. They depend on seed, round, pixel and sample alone: not on which
+other pixels are rendered, and by whom.
 """
 
 from __future__ import annotations
@@ -10,6 +11,7 @@ from __future__ import annotations
 import numpy as np
 from numpy.typing import NDArray
 
+from ...scene.render_scene import IntArray
 from ...spectra import FloatArray
 
 
@@ -31,27 +33,41 @@ def sequence(count: int) -> NDArray[np.uint32]:
 
 class Sampler:
     """
-    Pairs of random numbers for the paths of one tile.
+    Pairs of random numbers for the paths of some pixels.
 
     Parameters
     ----------
-    pixels : pixels of the tile
+    pixels : (pixels,) int array, their numbers in the whole picture
     samples : paths per pixel
     pairs : pairs that a path may ask for
-    seed, tile : the same two give the same numbers
+    seed, number : of the picture, and of its round; other rounds are independent
+
+    Attributes
+    ----------
+    turns : (pixels,) int array, any numbers
     """
 
-    def __init__(self, pixels: int, samples: int, pairs: int, seed: int, tile: int) -> None:
-        random = np.random.Generator(np.random.Philox(np.random.SeedSequence([seed % 2**64, tile])))
+    def __init__(self, pixels: IntArray, samples: int, pairs: int, seed: int, number: int) -> None:
+        random = np.random.Generator(np.random.Philox(np.random.SeedSequence([seed % 2**64, number])))
         points = sequence(samples)
         # Below the digits of the sequence each sample has digits of its own, or a pixel's samples would share
         # them, and with them whatever the last digits decide.
-        free = 32 - max(samples - 1, 1).bit_length()
-        below = random.integers(0, 1 << free, (pairs, 2, samples), np.uint32)
+        last = 1 << 32 - max(samples - 1, 1).bit_length()
+        below = random.integers(0, last, (pairs, *points.shape), np.uint32)
         self._points = [points[:, random.permutation(samples)] ^ below[pair] for pair in range(pairs)]
-        self._scramble = random.integers(0, 1 << 32, (pairs, 2, pixels), np.uint32)
+        keys = random.integers(0, 1 << 64, (pairs, 2, 1), np.uint64)
+        self._scramble = _bits(pixels, keys)
+        self.turns = _bits(pixels, random.integers(0, 1 << 64, dtype=np.uint64)).astype(int)
 
     def pair(self, use: int, pixel: NDArray, sample: NDArray) -> tuple[FloatArray, FloatArray]:
         """Return two (n,) arrays in [0, 1): the numbers for some use of some samples of some pixels."""
         u, v = self._points[use].take(sample, axis=1) ^ self._scramble[use].take(pixel, axis=1)
         return u * 2.0**-32, v * 2.0**-32
+
+
+def _bits(numbers: IntArray, key: NDArray[np.uint64] | np.uint64) -> NDArray[np.uint32]:
+    """Return 32 bits for each number and key that nothing else has to do with (SplitMix64)."""
+    x = (numbers.astype(np.uint64) + key) * np.uint64(0x9E3779B97F4A7C15)
+    for shift, factor in ((30, 0xBF58476D1CE4E5B9), (27, 0x94D049BB133111EB)):
+        x = (x ^ (x >> np.uint64(shift))) * np.uint64(factor)
+    return ((x ^ (x >> np.uint64(31))) >> np.uint64(32)).astype(np.uint32)

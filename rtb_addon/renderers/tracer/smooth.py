@@ -9,19 +9,14 @@ import numpy as np
 from ...scene.render_scene import IntArray, Material
 from ...spectra import FloatArray
 from .directions import dot
-from .meeting import Meeting, Onward
+from .meeting import Meeting, Model, Onward
 from .tables import Palette
 
 
-class Single:
+class Single(Model):
     """What scatters into single directions has in common: a light is never in just that one."""
 
     single = True
-    transmits = False
-
-    def shared(self, met: Meeting) -> FloatArray | None:
-        """Return None: nothing is shared."""
-        return None
 
     def evaluate(self, met: Meeting, rows: IntArray, towards: FloatArray) -> tuple[FloatArray, FloatArray]:
         """Return 0 twice."""
@@ -34,6 +29,7 @@ class Mirror(Single):
 
     def __init__(self, materials: Sequence[Material], palette: Palette) -> None:
         self._reflectance = palette.colours(materials, "specularReflectance")
+        self.plain = self._reflectance.plain
 
     def shared(self, met: Meeting) -> FloatArray:
         """Return the reflectance."""
@@ -50,7 +46,7 @@ class Nothing(Single):
     transmits = True
 
     def __init__(self, materials: Sequence[Material], palette: Palette) -> None:
-        pass
+        self.plain = np.ones((len(materials), len(palette.film.bands)), np.float32)
 
     def scattered(self, met: Meeting, u: FloatArray, v: FloatArray) -> Onward:
         """Return the directions as they were."""

@@ -31,11 +31,13 @@ class Colours:
 
     Attributes
     ----------
+    plain : (materials, bands) float32 array, or None where there are textures
     bright : (materials,) bool array, False for those that are black in every band
     """
 
     def __init__(self, rows: FloatArray, textures: Mapping[int, Lookup]) -> None:
         self._rows, self._textures = rows, textures
+        self.plain: FloatArray | None = None if textures else rows
         self.bright: NDArray[np.bool_] = rows.any(axis=1)
         self.bright[list(textures)] = True
 

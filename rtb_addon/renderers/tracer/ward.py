@@ -23,15 +23,12 @@ from ...spectra import FloatArray
 from . import beckmann
 from .directions import dot
 from .matte import lobe, scattered
-from .meeting import Meeting, Onward, chosen, column, weighed
+from .meeting import Meeting, Model, Onward, chosen, column, weighed
 from .tables import Palette, numbers
 
 
-class Ward:
+class Ward(Model):
     """Ward's surfaces, in any of the three variants."""
-
-    single = False
-    transmits = False
 
     def __init__(self, materials: Sequence[Material], palette: Palette) -> None:
         self._diffuse = palette.colours(materials, "diffuseReflectance")
@@ -41,10 +38,6 @@ class Ward:
         # Half the paths for either lobe, none for a lobe that is black.
         matte, glossy = self._diffuse.bright, self._specular.bright
         self._glossy = glossy / np.maximum(matte * 1.0 + glossy, 1)
-
-    def shared(self, met: Meeting) -> FloatArray | None:
-        """Return None: each lobe has a spectrum of its own."""
-        return None
 
     def evaluate(self, met: Meeting, rows: IntArray, towards: FloatArray) -> tuple[FloatArray, FloatArray]:
         """Return f cos of both lobes, and the density of both ways of sampling."""
