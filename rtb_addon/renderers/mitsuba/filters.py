@@ -42,7 +42,7 @@ def _box(x: FloatArray) -> FloatArray:
 
 
 def _tent(x: FloatArray) -> FloatArray:
-    return 1 - np.abs(x)
+    return np.interp(x, [-1.0, 0.0, 1.0], [0.0, 1.0, 0.0])
 
 
 def _gaussian(x: FloatArray) -> FloatArray:

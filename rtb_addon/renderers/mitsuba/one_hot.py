@@ -90,6 +90,9 @@ def one_hot(native: Native) -> OneHotScene:
 def _swap_film(root: Xml.Element, native: Native) -> None:
     """Give the camera a film of the same size that rgb variants know; nothing is ever written to it."""
     for sensor in root.iter("sensor"):
+        # How many samples are taken is told later, round by round.
+        for count in sensor.iterfind("sampler/integer[@name='sample_count']"):
+            count.set("value", "4")
         for film in sensor.findall("film"):
             sensor.remove(film)
         film = element("film", "hdrfilm", width=native.width, height=native.height)

@@ -35,7 +35,9 @@ def require_gpu() -> None:
 def _send_messages_to_stderr(mi: ModuleType) -> None:
     class Stderr(mi.Appender):
         def append(self, level, text):
-            print(text, file=sys.stderr)
+            # The samples that a picture really took are written in it.
+            if "Sample count rounded up" not in text:
+                print(text, file=sys.stderr)
 
         def log_progress(self, progress, name, formatted, eta, ptr=None):
             pass
