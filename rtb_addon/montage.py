@@ -72,7 +72,7 @@ def write_png(path: Path, picture: np.ndarray) -> None:
     from PIL import Image
 
     with replacing(path) as temporary:
-        Image.fromarray(picture).save(temporary, format="PNG")
+        Image.fromarray(picture).save(temporary, format="PNG", compress_level=1)  # noise hardly compresses
 
 
 def tristimulus(image: SpectralImage | Path | FloatArray) -> FloatArray:

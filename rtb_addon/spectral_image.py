@@ -64,6 +64,8 @@ class SpectralImage:
 
     def scaled(self, factor: float) -> SpectralImage:
         """Return the image with every radiance, and the recorded factor, multiplied by a factor."""
+        if factor == 1:
+            return self
         error = self.standard_error
         return replace(
             self,
