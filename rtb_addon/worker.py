@@ -13,9 +13,12 @@ import os
 import queue
 import signal
 import sys
+import threading
 import time
 import traceback
+from collections.abc import Callable
 from dataclasses import dataclass, field, replace
+from functools import partial
 from typing import TYPE_CHECKING, Any, TextIO
 
 from .background import Event
@@ -23,10 +26,12 @@ from .errors import Cancelled, RecipeError, RenderingError
 from .lifeline import stop_for_good, watch_parent
 
 if TYPE_CHECKING:
+    from .batch.saving import Rendering, Unsaved
     from .recipe import Recipe
 
 GRACE = 0.5  # [s] from the wish to stop to the end, whatever native code is doing
 INTERVAL = 0.1  # [s] between two events of progress
+BIG = 256 << 20  # [bytes] of a cube that memory should not hold beside the next one
 
 
 @dataclass(frozen=True)
@@ -72,6 +77,7 @@ class Desk:
         self._outgoing = outgoing
         self._tasks: queue.SimpleQueue[str | None] = queue.SimpleQueue()
         self._told = 0.0
+        self._lock = threading.Lock()
         watch_parent(self._tasks.put, self._close, getattr(signal, "SIGKILL", None))
 
     def next_task(self) -> Task | None:
@@ -81,16 +87,18 @@ class Desk:
 
     def tell(self, event: Event) -> None:
         """Write an event for the batch."""
-        self._outgoing.write(event.to_json() + "\n")
-        self._outgoing.flush()
+        with self._lock:
+            self._outgoing.write(event.to_json() + "\n")
+            self._outgoing.flush()
 
-    def report(self, fraction: float) -> None:
-        """Tell how far a rendering is; raise when the input has closed. Renderers call this."""
+    def report(self, condition: str, fraction: float) -> None:
+        """Tell how far a rendering is; raise when the input has closed."""
         if self.closed:
             raise Cancelled
         if (now := time.monotonic()) - self._told > INTERVAL:
             self._told = now
-            self.tell(Event("progress", fraction=fraction))
+            # All of it is done only where nothing is left but to save it.
+            self.tell(Event("progress", condition=condition, fraction=min(fraction, 0.999)))
 
     def _close(self) -> None:
         self.closed = True
@@ -101,31 +109,79 @@ class Desk:
 def main() -> None:
     """Render what the batch asks for until it asks no more."""
     desk = Desk(own_output())
+    saver = Saver(desk)
     recipes: dict[tuple[str, str], Recipe] = {}
     while (task := desk.next_task()) is not None:
-        desk.tell(replace(_outcome(task, recipes, desk), condition=task.condition))
+        made = attempt(task.condition, partial(_rendered, task, recipes, desk))
+        desk.tell(made) if isinstance(made, Event) else saver.take(made)
+    saver.finish()
 
 
-def _outcome(task: Task, recipes: dict[tuple[str, str], Recipe], desk: Desk) -> Event:
-    """Return how a task ended; nothing that a rendering raises ends the worker."""
-    # Only now: a worker listens to its parent before it imports what takes a second.
-    from .batch.rendering import render_condition
+class Saver:
+    """
+    Saves a rendering in a thread of its own, while the next one is being rendered.
 
+    The batch learns that a rendering is done but for that, as progress of 1, and gives the next task.
+    """
+
+    def __init__(self, desk: Desk) -> None:
+        self._desk = desk
+        self._taken: queue.Queue[Unsaved] = queue.Queue()
+        threading.Thread(target=self._save_all, daemon=True).start()
+
+    def take(self, unsaved: Unsaved) -> None:
+        """Save a rendering soon, a big one at once; no more than one waits in memory."""
+        self.finish()
+        if unsaved.image.radiance.nbytes > BIG:
+            self._save(unsaved)
+            return
+        self._desk.tell(Event("progress", condition=unsaved.condition, fraction=1.0))
+        self._taken.put(unsaved)
+
+    def finish(self) -> None:
+        """Wait until all is saved."""
+        self._taken.join()
+
+    def _save_all(self) -> None:
+        while True:
+            self._save(self._taken.get())
+            self._taken.task_done()
+
+    def _save(self, unsaved: Unsaved) -> None:
+        self._desk.tell(attempt(unsaved.condition, lambda: _end(unsaved.save())))
+
+
+def attempt(condition: str, act: Callable[[], Any]) -> Any:
+    """Return what an act does, or how it failed; nothing that a rendering raises ends the worker."""
     try:
-        recipe = _recipe_of(task, recipes)
-        how = {"threads": task.threads, "gpu": task.gpu, "fresh": task.fresh}
-        done = render_condition(recipe, task.condition, desk.report, **how)
+        return act()
     except Cancelled:
-        return Event("cancelled")
+        return Event("cancelled", condition=condition)
     except RecipeError as error:
-        return Event("failed", message=str(error), fault="recipe")
+        return Event("failed", condition=condition, message=str(error), fault="recipe")
     except RenderingError as error:
-        return Event("failed", message=str(error), fault="rendering")
+        return Event("failed", condition=condition, message=str(error), fault="rendering")
     except Exception as error:
         message = f"{type(error).__name__}: {error}".replace("\n", " ")
-        return Event("failed", message=message, fault="rendering", details=traceback.format_exc())
+        details = traceback.format_exc()
+        return Event("failed", condition=condition, message=message, fault="rendering", details=details)
+
+
+def _rendered(task: Task, recipes: dict[tuple[str, str], Recipe], desk: Desk) -> Event | Unsaved:
+    # Only now: a worker listens to its parent before it imports what takes a second.
+    from .batch.rendering import rendered
+    from .batch.saving import Unsaved
+
+    report = partial(desk.report, task.condition)
+    how = {"threads": task.threads, "gpu": task.gpu, "fresh": task.fresh}
+    made = rendered(_recipe_of(task, recipes), task.condition, report, **how)
+    return made if isinstance(made, Unsaved) else _end(made)
+
+
+def _end(done: Rendering) -> Event:
     return Event(
         "done" if done.new else "cached",
+        condition=done.condition,
         fraction=1.0,
         file=str(done.file),
         seconds=done.record["seconds"],

@@ -20,7 +20,8 @@ from .crew import Crew
 from .errands import Errands, dask_executor
 from .journal import Journal
 from .plan import chosen_conditions, plan
-from .rendering import SCRATCH, render_condition
+from .rendering import render_condition
+from .saving import SCRATCH
 
 __all__ = ["chosen_conditions", "render_condition", "render_recipe"]
 

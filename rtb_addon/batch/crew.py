@@ -41,6 +41,7 @@ class Crew:
         self._size = size
         self._idle, self._keep = idle, keep
         self._at_work: dict[EventStream, Task | None] = {}
+        self._saving: dict[EventStream, dict[str, Task]] = {}
         self._died: set[str] = set()
         self._inbox: queue.SimpleQueue[tuple[EventStream, Event | None]] = queue.SimpleQueue()
 
@@ -65,16 +66,21 @@ class Crew:
         return EventStream(start_child([], "rtb_addon.worker", self._waiting[0].threads), self._inbox)
 
     def _give_task(self, worker: EventStream) -> Iterator[Event]:
-        """Give a worker its next task, or the evening off."""
+        """Give a worker its next task, or the evening off once nothing of it is left to be saved."""
         task = self._waiting.popleft() if self._waiting else None
         self._at_work[worker] = task
-        if task is None and self._keep is not None:
-            del self._at_work[worker]
-            self._keep(worker)
-        elif task is None:
-            close_input(worker.process)
+        if task is None:
+            if not self._saving.get(worker):
+                self._let_go(worker)
         elif send(worker.process, task.to_json()):  # where it cannot hear, its end will be heard
             yield Event("started", condition=task.condition)
+
+    def _let_go(self, worker: EventStream) -> None:
+        if self._keep is None:
+            close_input(worker.process)
+        else:
+            del self._at_work[worker]
+            self._keep(worker)
 
     def _heard(self, worker: EventStream, event: Event | None) -> Iterator[Event]:
         if event is None:
@@ -82,12 +88,21 @@ class Crew:
             yield from self._hire()
             return
         yield event
-        if event.kind != "progress":
+        saving, task = self._saving.setdefault(worker, {}), self._at_work[worker]
+        if event.kind == "progress" and event.fraction == 1 and task is not None:
+            saving[event.condition] = task
             yield from self._give_task(worker)
+        elif event.kind != "progress":
+            saved = saving.pop(event.condition, None)
+            if saved is None or task is None:
+                yield from self._give_task(worker)
 
     def _bury(self, worker: EventStream) -> Iterator[Event]:
-        task = self._at_work.pop(worker)
+        rendering, saving = self._at_work.pop(worker), list(self._saving.pop(worker, {}).values())
         stop_all([worker.process], GRACE)
+        # What it was rendering has killed it; what was only to be saved is innocent, unless it was alone.
+        task = rendering or next(iter(saving), None)
+        self._waiting.extendleft(each for each in saving if each is not task)
         if task is None:
             return
         how = _cause_of_death(worker)

@@ -60,9 +60,15 @@ class Errands:
                     look = now + _LOOK
                     yield from self._news({task.condition for task in out.values()})
         finally:
-            shutil.rmtree(self._meeting.parent, ignore_errors=True)
+            self._end_meeting()
             wait([future for future in out if not future.cancel()], GRACE)
             idle_workers.dismiss(str(self._meeting))  # of an engine in this process
+
+    def _end_meeting(self) -> None:
+        """Take away the folder at one stroke: errands leave signs of life in it while it is emptied."""
+        with suppress(OSError):
+            self._meeting.rename(self._meeting.with_name("over"))
+        shutil.rmtree(self._meeting.parent, ignore_errors=True)
 
     def _sent(self, task: Task) -> Future[str]:
         try:

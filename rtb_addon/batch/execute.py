@@ -8,7 +8,7 @@ from typing import Any
 from ..errors import RenderingError
 from ..recipe.resources import listed
 from . import records, render_recipe
-from .rendering import Rendering
+from .saving import Rendering
 
 
 def execute_recipe(folder: Path | str, **options: Any) -> list[Rendering]:

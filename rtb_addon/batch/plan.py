@@ -12,7 +12,8 @@ from ..recipe import CONDITIONS, Recipe
 from ..recipe.foresight import Foresight
 from ..recipe.resources import listed
 from .keys import key_of
-from .rendering import Rendering, found
+from .rendering import found
+from .saving import Rendering
 
 
 class Plan(NamedTuple):

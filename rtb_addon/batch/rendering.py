@@ -2,17 +2,12 @@
 
 from __future__ import annotations
 
-import os
 import time
-from collections.abc import Mapping, Sequence
-from dataclasses import dataclass
+from collections.abc import Sequence
 from pathlib import Path
-from typing import Any
 
 from ..conditions import Condition
 from ..errors import RecipeError
-from ..files import temporary_prefix
-from ..layers import Layers
 from ..recipe import Recipe
 from ..recipe.condition_scene import (
     adjustments_of,
@@ -25,36 +20,10 @@ from ..recipe.condition_scene import (
 )
 from ..recipe.remodeler import Hook, remodeled
 from ..renderers.interface import Report
-from ..spectral_image import SpectralImage
 from . import records
 from .beside import layers_of, render_options
 from .keys import Key, key_of, plain
-
-SCRATCH = ".unfinished"  # where cubes are written before they take their place
-
-
-@dataclass(frozen=True)
-class Rendering:
-    """
-    A condition's radiance cube on disk.
-
-    Parameters
-    ----------
-    condition : its name
-    file : the cube, float32 OpenEXR [W sr-1 m-2 nm-1]
-    record : how it was made
-    new : whether it was rendered now, rather than found done
-    """
-
-    condition: str
-    file: Path
-    record: Mapping[str, Any]
-    new: bool
-
-    @property
-    def image(self) -> SpectralImage:
-        """The cube's content."""
-        return SpectralImage.load(self.file)
+from .saving import Rendering, Unsaved
 
 
 def render_condition(
@@ -83,6 +52,14 @@ def render_condition(
     """
     recipe = recipe if isinstance(recipe, Recipe) else Recipe.load(recipe)
     recipe = remodeled(recipe, remodelers, trust)
+    made = rendered(recipe, name, report, threads=threads, gpu=gpu, fresh=fresh)
+    return made.save() if isinstance(made, Unsaved) else made
+
+
+def rendered(
+    recipe: Recipe, name: str, report: Report, *, threads: int = 1, gpu: bool = False, fresh: bool = False
+) -> Rendering | Unsaved:
+    """Render one condition of a recipe, which is then still to be saved, or find it done."""
     condition = recipe.conditions[name]
     key = key_of(recipe, condition)
     if not fresh and (done := found(recipe, condition, key)) is not None:
@@ -105,7 +82,7 @@ def render_condition(
     layers = layers_of(renderer, native, image, options.layers, how, report)
     seconds = {"seconds": time.monotonic() - began, "seconds rendering": ended - ready}
     record = records.record(recipe, condition, key, resolved.warnings, seconds)
-    return _saved(image, layers, recipe, condition, record)
+    return Unsaved.of(recipe, condition, image, layers, record)
 
 
 def _as_remodeled(recipe: Recipe, condition: Condition, key: Key) -> Key:
@@ -123,38 +100,3 @@ def found(recipe: Recipe, condition: Condition, key: Key) -> Rendering | None:
     if not file.is_file() or records.key_in(file) != key.digest:
         return None
     return Rendering(condition.name, file, records.read(recipe.record_file(condition)), False)
-
-
-def _saved(
-    image: SpectralImage, layers: Layers | None, recipe: Recipe, condition: Condition, record: dict[str, Any]
-) -> Rendering:
-    """
-    Put a cube, its record and its layers into the folder, in the recipe's units.
-
-    The cube is written outside renderings/ and moved in, the others go first: whatever moment a
-    process is killed in, a cube is there whole with its record, or it is not there.
-    """
-    file, factor = recipe.rendering_file(condition), recipe.conventions.factor
-    image = image.scaled(factor)
-    record = {**record, "factor": image.factor, "renderer says": dict(image.attributes)}
-    aside = _scratch_folder(recipe.folder, file.parent) / (temporary_prefix(os.getpid()) + file.name)
-    try:
-        image.with_attributes(records.attributes(record)).save(aside)
-        if layers is not None:
-            layers.scaled(factor).save(recipe.layers_file(condition))
-        records.write(recipe.record_file(condition), record)
-        aside.replace(file)
-    except OSError as error:
-        raise RecipeError(f"cannot write {file}: {error.strerror}") from error
-    finally:
-        aside.unlink(missing_ok=True)
-    return Rendering(condition.name, file, record, True)
-
-
-def _scratch_folder(recipe: Path, target: Path) -> Path:
-    """Return a folder of unfinished cubes on the disk of the finished ones."""
-    target.mkdir(parents=True, exist_ok=True)
-    same_disk = target.stat().st_dev == recipe.stat().st_dev
-    folder = (recipe if same_disk else target) / SCRATCH
-    folder.mkdir(exist_ok=True)
-    return folder
