@@ -61,6 +61,7 @@ TABLE: Mapping[str, Mapping[str, Fidelity]] = {
     "filter lanczos": {"mitsuba": EXACT},
     "distribution beckmann": {"mitsuba": EXACT, "tracer": EXACT},
     "distribution ggx": {"tracer": EXACT},
+    "index spectrum": {"tracer": EXACT},
     "bands averaged": {"mitsuba": EXACT, "tracer": EXACT, "sphere": EXACT},
     "bands centre": {"mitsuba": EXACT, "tracer": EXACT, "sphere": EXACT},
     "bands mean": {"mitsuba": _BY_TENTHS},

@@ -7,6 +7,7 @@ from collections.abc import Iterator, Mapping
 from ...errors import RecipeError
 from ...scene.render_scene import Material, RenderScene, Texture, TextureUse, Value
 from ...scene.vocabulary import MATERIALS
+from ...spectra import Spectrum
 
 _LIGHTS = {"radius": (0, 1e30), "cone": (0, 180), "blend": (0, 1), "angle": (0, 180)}
 _LENSES = {"lens_radius": (0, 1e6), "focus_distance": (1e-6, 1e30)}
@@ -25,6 +26,8 @@ _WORDS = {
     "wrapMode": ("repeat", "mirror", "clamp"),
     "filterMode": ("ewa", "trilinear", "bilinear", "nearest"),
 }
+# Numbers that may be spectra.
+_INDICES = ("intIOR", "extIOR")
 _REFERENCES = ("materialID", "otherMaterialID")
 
 
@@ -59,6 +62,8 @@ def parts(material: Material) -> Iterator[str]:
 def _check_numbers(what: str, said: Mapping[str, Value], ranges: Mapping[str, tuple[float, float]]) -> None:
     for name, (low, high) in ranges.items():
         value = said.get(name, low)
+        if name in _INDICES and isinstance(value, Spectrum):
+            value = next((one for one in value.values.tolist() if not low <= one <= high), low)
         if not (isinstance(value, int | float) and low <= value <= high):
             raise RecipeError(f"{what} has {name} {value}, give a number from {low:g} to {high:g}")
 

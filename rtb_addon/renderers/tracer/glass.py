@@ -26,9 +26,13 @@ class _Smooth(Single):
     transmits = True
 
     def __init__(self, materials: Sequence[Material], palette: Palette) -> None:
-        self._eta = numbers(materials, "intIOR") / numbers(materials, "extIOR")
+        self._eta = self._indices(materials, palette)
         self._reflectance = palette.colours(materials, "specularReflectance")
         self._transmittance = palette.colours(materials, "specularTransmittance")
+
+    def _indices(self, materials: Sequence[Material], palette: Palette) -> FloatArray:
+        """Return the (materials,) indices inside per index outside."""
+        return numbers(materials, "intIOR") / numbers(materials, "extIOR")
 
     def _colour(self, met: Meeting, reflected: NDArray[np.bool_]) -> FloatArray:
         return np.where(reflected[:, None], self._reflectance.at(met), self._transmittance.at(met))

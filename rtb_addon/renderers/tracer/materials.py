@@ -13,7 +13,9 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from ...scene.render_scene import Film, IntArray, Material, Texture, TextureUse
+from ...scene.render_scene import Film, IntArray, Material, Texture, TextureUse, Value
+from ...spectra import Spectrum
+from .dispersion import DispersingGlass, DispersingRoughGlass, DispersingThinGlass
 from .glass import Glass, ThinGlass
 from .matte import Matte
 from .meeting import Model
@@ -38,6 +40,9 @@ KINDS: dict[str, Callable[[Sequence[Material], Palette], Model]] = {
     "glass": Glass,
     "thinglass": ThinGlass,
     "roughglass": RoughGlass,
+    "dispersing glass": DispersingGlass,
+    "dispersing thinglass": DispersingThinGlass,
+    "dispersing roughglass": DispersingRoughGlass,
     "nothing": Nothing,
 }
 _SMOOTH = {"metal": "smooth metal", "roughplastic": "plastic", "roughglass": "glass"}
@@ -118,9 +123,14 @@ def _plain(models: Sequence[Model]) -> Plain | None:
 def _kind(material: Material) -> tuple[str, str]:
     """Return which of KINDS a material is (blends and masks are none) and how its slopes are distributed."""
     said = material.parameters
-    if said.get("roughness") == 0 and material.model in _SMOOTH:
-        return _SMOOTH[material.model], ""
-    return material.model, str(said.get("distribution", ""))
+    word = _SMOOTH.get(material.model, material.model) if said.get("roughness") == 0 else material.model
+    disperses = any(_varies(said.get(name)) for name in ("intIOR", "extIOR"))
+    slopes = str(said.get("distribution", "")) if "roughness" in said and said["roughness"] != 0 else ""
+    return f"dispersing {word}" if disperses else word, slopes
+
+
+def _varies(value: Value | None) -> bool:
+    return isinstance(value, Spectrum) and bool(np.ptp(value.values))
 
 
 def _reflects(material: Material, film: Film) -> bool:

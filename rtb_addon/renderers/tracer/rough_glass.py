@@ -26,7 +26,7 @@ class RoughGlass(Model):
     transmits = True
 
     def __init__(self, materials: Sequence[Material], palette: Palette) -> None:
-        self._eta = numbers(materials, "intIOR") / numbers(materials, "extIOR")
+        self._eta = self._indices(materials, palette)
         self._roughness, self._slopes = numbers(materials, "roughness"), facets.slopes_of(materials)
         self._reflectance = palette.colours(materials, "specularReflectance")
         self._transmittance = palette.colours(materials, "specularTransmittance")
@@ -38,7 +38,14 @@ class RoughGlass(Model):
 
     def scattered(self, met: Meeting, u: FloatArray, v: FloatArray) -> Onward:
         """Choose a small surface, then whether it reflects."""
-        eta, alpha = relative(self._eta, met), self._roughness[met.row]
+        return self._scattered(met, u, v, relative(self._eta, met))
+
+    def _indices(self, materials: Sequence[Material], palette: Palette) -> FloatArray:
+        """Return the (materials,) indices inside per index outside."""
+        return numbers(materials, "intIOR") / numbers(materials, "extIOR")
+
+    def _scattered(self, met: Meeting, u: FloatArray, v: FloatArray, eta: FloatArray) -> Onward:
+        alpha = self._roughness[met.row]
         h = self._slopes.facets(met.back, u, v, alpha, alpha)
         cosine = dot(met.back, h)
         reflectance, behind = fresnel.dielectric(cosine.clip(0, 1), eta)
@@ -52,7 +59,17 @@ class RoughGlass(Model):
         return Onward(met.frame.world(towards), density, weighed(value, density))
 
     def _evaluated(self, met: Meeting, towards: FloatArray) -> tuple[FloatArray, FloatArray]:
-        back, eta, alpha = met.back, relative(self._eta, met), self._roughness[met.row]
+        gain, density = self._lobes(met.back, towards, relative(self._eta, met), self._roughness[met.row])
+        return column(gain) * self._colour(met, towards), density
+
+    def _colour(self, met: Meeting, towards: FloatArray) -> FloatArray:
+        reflected = (towards[2] > 0)[:, None]
+        return np.where(reflected, self._reflectance.at(met), self._transmittance.at(met))
+
+    def _lobes(
+        self, back: FloatArray, towards: FloatArray, eta: FloatArray, alpha: FloatArray
+    ) -> tuple[FloatArray, FloatArray]:
+        """Return f cos without a colour, and the density, along the axes of the surfaces."""
         reflected = towards[2] > 0
         h = normalised(back + np.where(reflected, 1, eta) * towards)
         h = np.where(h[2] < 0, -h, h)
@@ -66,8 +83,7 @@ class RoughGlass(Model):
         masked = self._slopes.unmasked(back, alpha) * self._slopes.unmasked(towards, alpha)
         d = self._slopes.distribution(h, alpha, alpha)
         gain = part * d * masked * before / np.where(seen, back[2], 1) / np.where(reflected, 1, eta**2)
-        colour = np.where(reflected[:, None], self._reflectance.at(met), self._transmittance.at(met))
-        return column(gain) * colour, part * self._slopes.density(back, h, alpha, alpha)
+        return gain, part * self._slopes.density(back, h, alpha, alpha)
 
 
 def _refracted(before: FloatArray, after: FloatArray, eta: FloatArray, seen: FloatArray) -> FloatArray:

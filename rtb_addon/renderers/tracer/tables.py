@@ -60,17 +60,23 @@ class Palette(NamedTuple):
     def colours(self, materials: Sequence[Material], name: str) -> Colours:
         """Return the spectra of one parameter of materials."""
         said = [one.parameters[name] for one in materials]
+        used = {row: value.texture for row, value in enumerate(said) if isinstance(value, TextureUse)}
+        return Colours(self.rows(materials, name), {row: self.textures[id] for row, id in used.items()})
+
+    def rows(self, materials: Sequence[Material], name: str) -> FloatArray:
+        """Return the (materials, bands) float32 band values of one parameter, 0 where it is a texture."""
+        said = [one.parameters[name] for one in materials]
         named = [
             (f"{name} of material {one.id}", 0.0 if isinstance(value, TextureUse) else value)
             for one, value in zip(materials, said, strict=True)
         ]
-        used = {row: value.texture for row, value in enumerate(said) if isinstance(value, TextureUse)}
-        return Colours(table(named, self.film), {row: self.textures[id] for row, id in used.items()})
+        return table(named, self.film)
 
 
 def numbers(materials: Sequence[Material], name: str) -> FloatArray:
-    """Return the (materials,) numbers of one parameter of materials."""
-    return np.array([one.parameters[name] for one in materials], float)
+    """Return the (materials,) numbers of one parameter of materials; of a spectrum its first value."""
+    said = [one.parameters[name] for one in materials]
+    return np.array([one.values[0] if isinstance(one, Spectrum) else one for one in said], float)
 
 
 def table(named: Sequence[tuple[str, object]], film: Film) -> FloatArray:
