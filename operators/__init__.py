@@ -2,31 +2,46 @@
 
 from bpy.utils import register_classes_factory
 
-from . import running
+from . import call_tooltips, running, watching
 from .add_condition import RTB_OT_add_condition
 from .add_variable import RTB_OT_add_variable
 from .cancel_rendering import RTB_OT_cancel_rendering
+from .check_recipe import RTB_OT_check_recipe
 from .copy_conditions import RTB_OT_copy_conditions
 from .duplicate_condition import RTB_OT_duplicate_condition
 from .duplicate_variable import RTB_OT_duplicate_variable
+from .edit_mapping import RTB_OT_edit_mapping
+from .edit_mapping_line import RTB_OT_edit_mapping_line
+from .edit_mappings_text import RTB_OT_edit_mappings_text
 from .export_conditions import RTB_OT_export_conditions
 from .export_recipe import RTB_OT_export_recipe
 from .fill_from_library import RTB_OT_fill_from_library
 from .fill_graded import RTB_OT_fill_graded
 from .fill_grid import RTB_OT_fill_grid
+from .fill_pairs import RTB_OT_fill_pairs
 from .fill_random import RTB_OT_fill_random
 from .fill_range import RTB_OT_fill_range
 from .import_conditions import RTB_OT_import_conditions
 from .move_condition import RTB_OT_move_condition
 from .move_variable import RTB_OT_move_variable
+from .open_folder import RTB_OT_open_folder
+from .pack_recipe import RTB_OT_pack_recipe
 from .paste_conditions import RTB_OT_paste_conditions
+from .preferences import RTB_AP_preferences
+from .preview_condition import RTB_OT_preview_condition
 from .remove_condition import RTB_OT_remove_condition
+from .remove_mapping import RTB_OT_remove_mapping
+from .remove_mapping_line import RTB_OT_remove_mapping_line
 from .remove_variable import RTB_OT_remove_variable
 from .rename_variable import RTB_OT_rename_variable
+from .render_condition import RTB_OT_render_condition
 from .render_recipe import RTB_OT_render_recipe
+from .select_culprit import RTB_OT_select_culprit
 from .select_variable import RTB_OT_select_variable
+from .set_variable_kind import RTB_OT_set_variable_kind
 from .show_montage import RTB_OT_show_montage
 from .tell import RTB_OT_tell
+from .test_renderers import RTB_OT_test_renderers
 from .turn_page import RTB_OT_turn_page
 from .use_blackbody import RTB_OT_use_blackbody
 from .use_colour import RTB_OT_use_colour
@@ -37,54 +52,74 @@ from .use_spectra import RTB_OT_use_spectra
 from .use_spectrum_file import RTB_OT_use_spectrum_file
 from .use_variable import RTB_OT_use_variable
 from .vary_in_recipe import RTB_OT_vary_in_recipe
+from .vary_property import RTB_OT_vary_property
 
-_register, _unregister = register_classes_factory(
-    (
-        RTB_OT_export_recipe,
-        RTB_OT_render_recipe,
-        RTB_OT_cancel_rendering,
-        RTB_OT_show_montage,
-        RTB_OT_use_spectra,
-        RTB_OT_tell,
-        RTB_OT_use_library_spectrum,
-        RTB_OT_use_spectrum_file,
-        RTB_OT_use_flat_spectrum,
-        RTB_OT_use_daylight,
-        RTB_OT_use_blackbody,
-        RTB_OT_use_colour,
-        RTB_OT_use_variable,
-        RTB_OT_vary_in_recipe,
-        RTB_OT_add_condition,
-        RTB_OT_add_variable,
-        RTB_OT_copy_conditions,
-        RTB_OT_duplicate_condition,
-        RTB_OT_duplicate_variable,
-        RTB_OT_export_conditions,
-        RTB_OT_fill_from_library,
-        RTB_OT_fill_graded,
-        RTB_OT_fill_grid,
-        RTB_OT_fill_random,
-        RTB_OT_fill_range,
-        RTB_OT_import_conditions,
-        RTB_OT_move_condition,
-        RTB_OT_move_variable,
-        RTB_OT_paste_conditions,
-        RTB_OT_remove_condition,
-        RTB_OT_remove_variable,
-        RTB_OT_rename_variable,
-        RTB_OT_select_variable,
-        RTB_OT_turn_page,
-    )
+CLASSES = (
+    RTB_OT_export_recipe,
+    RTB_OT_render_recipe,
+    RTB_OT_cancel_rendering,
+    RTB_OT_show_montage,
+    RTB_OT_use_spectra,
+    RTB_OT_tell,
+    RTB_OT_use_library_spectrum,
+    RTB_OT_use_spectrum_file,
+    RTB_OT_use_flat_spectrum,
+    RTB_OT_use_daylight,
+    RTB_OT_use_blackbody,
+    RTB_OT_use_colour,
+    RTB_OT_use_variable,
+    RTB_OT_vary_in_recipe,
+    RTB_OT_add_condition,
+    RTB_OT_add_variable,
+    RTB_OT_copy_conditions,
+    RTB_OT_duplicate_condition,
+    RTB_OT_duplicate_variable,
+    RTB_OT_export_conditions,
+    RTB_OT_fill_from_library,
+    RTB_OT_fill_graded,
+    RTB_OT_fill_grid,
+    RTB_OT_fill_random,
+    RTB_OT_fill_range,
+    RTB_OT_import_conditions,
+    RTB_OT_move_condition,
+    RTB_OT_move_variable,
+    RTB_OT_paste_conditions,
+    RTB_OT_remove_condition,
+    RTB_OT_remove_variable,
+    RTB_OT_rename_variable,
+    RTB_OT_select_variable,
+    RTB_OT_turn_page,
+    RTB_OT_check_recipe,
+    RTB_OT_edit_mapping,
+    RTB_OT_edit_mapping_line,
+    RTB_OT_edit_mappings_text,
+    RTB_OT_open_folder,
+    RTB_OT_pack_recipe,
+    RTB_OT_preview_condition,
+    RTB_OT_remove_mapping,
+    RTB_OT_remove_mapping_line,
+    RTB_OT_render_condition,
+    RTB_OT_select_culprit,
+    RTB_OT_set_variable_kind,
+    RTB_OT_fill_pairs,
+    RTB_OT_test_renderers,
+    RTB_OT_vary_property,
+    RTB_AP_preferences,
 )
+
+_register, _unregister = register_classes_factory(CLASSES)
 
 
 def register() -> None:
     """Make the operators known to Blender."""
+    call_tooltips.add_to(CLASSES)
     _register()
     running.register()
+    watching.register()
 
 
 def unregister() -> None:
     """Stop what is rendering and take the operators back."""
+    watching.unregister()
     running.unregister()
     _unregister()

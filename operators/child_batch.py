@@ -4,11 +4,13 @@ from __future__ import annotations
 
 import os
 import time
+from collections.abc import Sequence
 from contextlib import suppress
 from pathlib import Path
 
 from ..rtb_addon.background import Event, EventStream, start_child, stop
 from . import row_states
+from .preferences import arguments
 
 GRACE = 0.5  # [s] that a child has to stop when asked, before it is ended
 NICENESS = 5
@@ -21,9 +23,10 @@ class ChildBatch:
     Parameters
     ----------
     folder : of the recipe
+    conditions : names of those to render; all where there are none
     """
 
-    def __init__(self, folder: Path) -> None:
+    def __init__(self, folder: Path, conditions: Sequence[str] = ()) -> None:
         self.folder = folder
         self.finished = self.total = 0
         self.remaining: float | None = None
@@ -31,9 +34,10 @@ class ChildBatch:
         self.warnings: list[str] = []
         self.montage: Path | None = None
         self.cancelled = self.ended = False
-        self._fractions: dict[str, float] = {}
+        self.under_way: dict[str, float] = {}  # how much of each condition is done, 0 to 1
         self._deadline: float | None = None
-        self._child = start_child(["render", str(folder), "--json"])
+        chosen = ["--conditions", ",".join(conditions)] if conditions else []
+        self._child = start_child(["render", str(folder), "--json", *chosen, *arguments()])
         self._events = EventStream(self._child)
         with suppress(
             OSError, AttributeError
@@ -43,7 +47,7 @@ class ChildBatch:
     @property
     def progress(self) -> float:
         """How much of the batch is done, 0 to 1; conditions under way count in part."""
-        return min((self.finished + sum(self._fractions.values())) / self.total, 1.0) if self.total else 0.0
+        return min((self.finished + sum(self.under_way.values())) / self.total, 1.0) if self.total else 0.0
 
     def take(self) -> bool:
         """Take in what the child has said since last time, and return whether there was anything new."""
@@ -92,9 +96,9 @@ class ChildBatch:
         self.remaining = event.remaining
         self.warnings += [text for text in event.warnings if text not in self.warnings]
         if event.kind == "progress":
-            self._fractions[event.condition] = event.fraction
+            self.under_way[event.condition] = event.fraction
         elif event.condition:
-            self._fractions.pop(event.condition, None)
+            self.under_way.pop(event.condition, None)
         if event.condition:
             row_states.take(event.condition, event.kind)
         if event.kind == "failed":

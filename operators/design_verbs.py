@@ -34,11 +34,11 @@ class DesignVerb(TableVerb):
         for name in self.fields:
             self.layout.prop(self, name)
 
-    def put(self, context, values: list[str], names: list[str] | None = None) -> str:
-        """Put values into the variable's column and say how many."""
+    def put(self, context, values: list[str], names: list[str] | None = None, kind: str = "") -> str:
+        """Put values into the variable's column, of a type where it is a new one, and say how many."""
         name = self.variable.strip()
         rows = [[value] for value in values]
-        fill(context.scene.rtb, [name], rows, names or named(name, rows), self.how)
+        fill(context.scene.rtb, [name], rows, names or named(name, rows), self.how, kind)
         return f"{len(values)} values of {name}"
 
 

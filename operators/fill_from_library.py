@@ -74,4 +74,4 @@ class RTB_OT_fill_from_library(DesignVerb, bpy.types.Operator):
             raise RecipeError("no spectrum is marked, click those that are wanted")
         for name in names:
             find(name)
-        return self.put(context, names, [each.rpartition("/")[2] for each in names])
+        return self.put(context, names, [each.rpartition("/")[2] for each in names], "SPECTRUM")

@@ -23,4 +23,4 @@ class RTB_OT_fill_graded(DesignVerb, bpy.types.Operator):
         from ..rtb_addon.spectra.spoken import spectrum_from
 
         first, last = (spectrum_from(text, folder=blend_folder()) for text in (self.first, self.last))
-        return self.put(context, graded(first, last, self.count))
+        return self.put(context, graded(first, last, self.count), kind="SPECTRUM")

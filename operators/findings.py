@@ -1,32 +1,58 @@
-"""What the last export or batch found, one sentence each, for the panel to show."""
+"""What the last check, export or batch found, one sentence each, for the panel to show."""
 
 from __future__ import annotations
 
+from collections.abc import Iterable
 from pathlib import Path
+from typing import TYPE_CHECKING
 
 import bpy
 
+from ..rtb_addon.blender.redrawing import redraw_panels
+
+if TYPE_CHECKING:
+    from .culprits import Culprit
+
 errors: list[str] = []
 remarks: list[str] = []
+culprits: dict[str, Culprit] = {}
+mappings: list[str] = []  # lines as they were written last, and how many of them are not of the scene's text
+generated = 0
 
 
 def clear() -> None:
     """Forget what was found before."""
     errors.clear()
     remarks.clear()
+    culprits.clear()
+
+
+def note(problems: Iterable[str] = (), others: Iterable[str] = ()) -> None:
+    """Add problems and remarks, each once, with what they speak of."""
+    from .culprits import culprit_of
+
+    for found, known in ((problems, errors), (others, remarks)):
+        for sentence in found:
+            if sentence not in known:
+                known.append(sentence)
+                if (culprit := culprit_of(sentence, bpy.context.scene, mappings, generated)) is not None:
+                    culprits[sentence] = culprit
+    redraw_panels()
 
 
 def exported(recipe, folder: str = "") -> Path:
     """Save a scene's recipe and return its folder; what had to be assumed becomes remarks."""
+    global generated
     clear()
     saved = recipe.save(Path(bpy.path.abspath(folder)) if folder else None)
-    remarks.extend(recipe.report)
+    mappings[:], generated = recipe.mappings.splitlines(), recipe.generated
+    note(others=recipe.report)
     return saved
 
 
 def refuse(operator, error: Exception) -> set[str]:
     """Say in the panel and in the report why an operator cannot go on."""
     clear()
-    errors.append(str(error))
+    note([str(error)])
     operator.report({"ERROR"}, str(error))
     return {"CANCELLED"}

@@ -7,12 +7,8 @@ from ..rtb_addon.errors import RecipeError
 from . import findings, row_states, running
 
 
-class RTB_OT_render_recipe(bpy.types.Operator):
-    """Write the recipe and render every condition that is not done yet, while you go on working"""
-
-    bl_idname = "rtb.render_recipe"
-    bl_label = "Render Recipe"
-    bl_options = {"REGISTER"}
+class RenderVerb:
+    """An operator that renders some conditions, all of them where none is chosen."""
 
     @classmethod
     def poll(cls, context):
@@ -26,8 +22,12 @@ class RTB_OT_render_recipe(bpy.types.Operator):
         except RecipeError as error:
             return findings.refuse(self, error)
         row_states.begin(context.scene)
-        batch = running.start(folder)
+        batch = running.start(folder, self.chosen(context))
         return self._followed(batch) if bpy.app.background else {"FINISHED"}
+
+    def chosen(self, context) -> list[str]:
+        """Return the names of the conditions to render."""
+        return []
 
     def _followed(self, batch):
         """Wait for the batch, as there is no window to keep alive."""
@@ -35,3 +35,11 @@ class RTB_OT_render_recipe(bpy.types.Operator):
         if findings.errors:
             self.report({"ERROR"}, "; ".join(findings.errors))
         return {"CANCELLED"} if batch.cancelled or findings.errors else {"FINISHED"}
+
+
+class RTB_OT_render_recipe(RenderVerb, bpy.types.Operator):
+    """Write the recipe and render every condition that is not done yet, while you go on working"""
+
+    bl_idname = "rtb.render_recipe"
+    bl_label = "Render Recipe"
+    bl_options = {"REGISTER"}

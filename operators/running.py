@@ -6,12 +6,13 @@ It lives here and not in Blender's data, so that undo and saving do not touch it
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from pathlib import Path
 from typing import TYPE_CHECKING
 
 import bpy
 
-from . import findings, montages, row_states
+from . import checking, findings, montages, row_states
 from .tell import tell
 
 if TYPE_CHECKING:
@@ -22,12 +23,12 @@ INTERVAL = 0.1  # [s] between two looks at what the child has said
 batch: ChildBatch | None = None
 
 
-def start(folder: Path) -> ChildBatch:
-    """Start rendering a recipe's folder; with an interface, a timer follows it."""
+def start(folder: Path, conditions: Sequence[str] = ()) -> ChildBatch:
+    """Start rendering a recipe's folder, or some of its conditions; with an interface, a timer follows it."""
     from .child_batch import ChildBatch  # brings subprocess and more, which enabling need not wait for
 
     global batch
-    batch = ChildBatch(folder)
+    batch = ChildBatch(folder, conditions)
     if not bpy.app.background:
         bpy.app.timers.register(_look, first_interval=INTERVAL, persistent=True)
     return batch
@@ -69,8 +70,7 @@ def _conclude(ended: ChildBatch) -> None:
     global batch
     batch = None
     row_states.end()
-    findings.errors.extend(ended.failures)
-    findings.remarks.extend(text for text in ended.warnings if text not in findings.remarks)
+    findings.note(ended.failures, ended.warnings)
     if ended.montage is not None and ended.montage.is_file():
         image = montages.load(ended.montage)
         if not bpy.app.background and (area := montages.editor(bpy.context)):
@@ -103,6 +103,7 @@ def _redraw() -> None:
 @bpy.app.handlers.persistent
 def _before_loading(*_) -> None:
     stop()
+    checking.stop()
     findings.clear()
     row_states.clear()
 
@@ -115,6 +116,7 @@ def register() -> None:
 def unregister() -> None:
     """Leave no child and no timer behind."""
     stop()
+    checking.stop()
     findings.clear()
     row_states.clear()
     bpy.app.handlers.load_pre.remove(_before_loading)

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import bpy
 
+from ..rtb_addon.blender import preview
 from ..rtb_addon.blender.fields import FIELDS, ITEMS, owner_of
 from ..rtb_addon.blender.redrawing import redraw_panels
 from ..rtb_addon.errors import RecipeError
@@ -23,6 +24,7 @@ class SpectrumVerb:
         except RecipeError as error:
             self.report({"ERROR"}, str(error))
             return {"CANCELLED"}
+        preview.refresh()
         redraw_panels()
         return {"FINISHED"}
 

@@ -1,5 +1,6 @@
 """What verbs on the table of conditions have in common."""
 
+from ..rtb_addon.blender import preview
 from ..rtb_addon.blender.redrawing import redraw_panels
 from ..rtb_addon.errors import RecipeError
 
@@ -15,6 +16,7 @@ class TableVerb:
         except RecipeError as error:
             self.report({"ERROR"}, str(error))
             return {"CANCELLED"}
+        preview.refresh()
         redraw_panels()
         if said:
             self.report({"INFO"}, said)

@@ -25,7 +25,7 @@ class RTB_OT_vary_in_recipe(SpectrumVerb, bpy.types.Operator):
         if varies(now):
             raise RecipeError(f"{now} varies already, its values are in the conditions")
         name = free_name(field.variable, [each.name for each in settings.variables])
-        add_variable(settings, name, now)
+        add_variable(settings, name, now, "SPECTRUM")
         if not settings.conditions:
             add_row(settings, "", [now])
         show_table(context)

@@ -7,6 +7,7 @@ from ..rtb_addon.blender import curve_previews
 from . import menus, progress, spectrum_menus
 from .condition_menus import RTB_MT_conditions, RTB_MT_designs, RTB_MT_variable
 from .conditions import RTB_PT_conditions, RTB_UL_conditions
+from .mappings import RTB_PT_mappings
 from .recipe import RTB_PT_light_paths, RTB_PT_montage, RTB_PT_recipe
 from .spectral_emission import RTB_PT_spectral_emission
 from .spectral_light import RTB_PT_spectral_light
@@ -24,6 +25,7 @@ _register, _unregister = register_classes_factory(
         RTB_MT_variable,
         RTB_MT_conditions,
         RTB_PT_conditions,
+        RTB_PT_mappings,
         RTB_PT_spectral_material,
         RTB_PT_spectral_light,
         RTB_PT_spectral_world,

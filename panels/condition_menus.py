@@ -10,6 +10,7 @@ from ..operators.export_conditions import RTB_OT_export_conditions
 from ..operators.fill_from_library import RTB_OT_fill_from_library
 from ..operators.fill_graded import RTB_OT_fill_graded
 from ..operators.fill_grid import RTB_OT_fill_grid
+from ..operators.fill_pairs import RTB_OT_fill_pairs
 from ..operators.fill_random import RTB_OT_fill_random
 from ..operators.fill_range import RTB_OT_fill_range
 from ..operators.import_conditions import RTB_OT_import_conditions
@@ -18,6 +19,7 @@ from ..operators.paste_conditions import RTB_OT_paste_conditions
 from ..operators.remove_variable import RTB_OT_remove_variable
 from ..operators.rename_variable import RTB_OT_rename_variable
 from ..operators.select_variable import MENU
+from ..operators.set_variable_kind import RTB_OT_set_variable_kind
 
 DESIGNS = (
     RTB_OT_fill_from_library,
@@ -25,6 +27,7 @@ DESIGNS = (
     RTB_OT_fill_grid,
     RTB_OT_fill_random,
     RTB_OT_fill_graded,
+    RTB_OT_fill_pairs,
 )
 
 
@@ -51,6 +54,7 @@ class RTB_MT_variable(bpy.types.Menu):
         layout.operator_context = "INVOKE_DEFAULT"
         layout.operator(RTB_OT_add_variable.bl_idname, text="Add Variable…", icon="ADD")
         layout.operator(RTB_OT_rename_variable.bl_idname, text="Rename Variable…")
+        layout.operator_menu_enum(RTB_OT_set_variable_kind.bl_idname, "kind")
         layout.operator(RTB_OT_duplicate_variable.bl_idname, icon="DUPLICATE")
         layout.operator(RTB_OT_move_variable.bl_idname, text="Move Left", icon="TRIA_LEFT").by = -1
         layout.operator(RTB_OT_move_variable.bl_idname, text="Move Right", icon="TRIA_RIGHT").by = 1

@@ -2,15 +2,17 @@
 
 import bpy
 
-from ..operators import row_states
+from ..operators import row_states, running
 from ..operators.add_condition import RTB_OT_add_condition
 from ..operators.add_variable import RTB_OT_add_variable
 from ..operators.move_condition import RTB_OT_move_condition
 from ..operators.remove_condition import RTB_OT_remove_condition
 from ..operators.select_variable import RTB_OT_select_variable
 from ..operators.turn_page import RTB_OT_turn_page
+from ..rtb_addon.blender import preview
+from .cells import draw_cell, draw_wide_cell
 from .condition_menus import RTB_MT_conditions
-from .spectrum_menus import RTB_MT_cell
+from .sentences import draw_sentences
 
 CELL = 66  # narrowest cell in which a word can be read [pixels at scale 1]
 BESIDE = 52  # what borders and the buttons at the right take [pixels at scale 1]
@@ -26,12 +28,12 @@ class RTB_UL_conditions(bpy.types.UIList):
     def draw_item(self, context, layout, owner, item, icon, active, active_property, index):
         row, scene = layout.row(align=True), context.scene
         if row_states.known(scene):
-            row.label(text="", icon=ICONS[row_states.state(scene, item, index)])
+            draw_state(row, scene, item, index)
         name = row_states.row_name(scene, item, index)
         row.prop(item, "name", text="", emboss=False, placeholder=name)
         for number in columns_shown(context):
             if number < len(item.cells):
-                row.prop(item.cells[number], "value", text="", emboss=False)
+                draw_cell(row, item.cells[number], scene.rtb.variables[number].kind)
             else:
                 row.label(text="")
 
@@ -55,6 +57,7 @@ class RTB_PT_conditions(bpy.types.Panel):
         draw_header(column, context, settings)
         draw_rows(column, settings)
         draw_active_cell(self.layout, settings)
+        draw_preview(self.layout, context)
 
 
 def columns_shown(context) -> range:
@@ -64,6 +67,24 @@ def columns_shown(context) -> range:
     count = len(context.scene.rtb.variables)
     first = min(context.window_manager.rtb_first_variable, max(count - fit, 0))
     return range(first, min(first + fit, count))
+
+
+def draw_state(layout, scene, row, index: int) -> None:
+    """Draw how a row is: an icon, or how far it is while it renders."""
+    state = row_states.state(scene, row, index)
+    under_way = {} if running.batch is None else running.batch.under_way
+    if state == "running" and (name := row_states.row_name(scene, row, index)) in under_way:
+        layout.progress(factor=under_way[name], type="RING")
+    else:
+        layout.label(text="", icon=ICONS[state])
+
+
+def draw_preview(layout, context) -> None:
+    """Draw the switch of the preview, and what of it cannot be shown."""
+    window_manager = context.window_manager
+    shown = preview.is_on()
+    layout.prop(window_manager, "rtb_preview", toggle=True, icon="HIDE_OFF" if shown else "HIDE_ON")
+    draw_sentences(layout, preview.problems() if shown else [], context.region.width, alert=True)
 
 
 def draw_beginning(layout) -> None:
@@ -118,7 +139,6 @@ def draw_active_cell(layout, settings) -> None:
     """Draw the active row's cell of the active variable, as wide as the sidebar."""
     row, number = settings.active_condition, settings.active_variable
     if row < len(settings.conditions) and number < len(settings.conditions[row].cells):
-        layout.label(text=settings.variables[number].name)
-        line = layout.row(align=True)
-        line.prop(settings.conditions[row].cells[number], "value", text="")
-        line.menu(RTB_MT_cell.bl_idname, text="", icon="DOWNARROW_HLT")
+        variable = settings.variables[number]
+        layout.label(text=variable.name)
+        draw_wide_cell(layout, settings.conditions[row].cells[number], variable.kind)

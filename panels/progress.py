@@ -5,12 +5,22 @@ import bpy
 from ..operators import running
 from ..operators.cancel_rendering import RTB_OT_cancel_rendering
 
+MOST = 4  # conditions under way that have a bar of their own
+
 
 def draw_progress(layout, batch) -> None:
     """Draw a bar with what is done and what is left, and a button that stops."""
     row = layout.row(align=True)
     row.progress(factor=batch.progress, type="BAR", text=progress_text(batch))
     row.operator(RTB_OT_cancel_rendering.bl_idname, text="", icon="CANCEL")
+
+
+def draw_under_way(layout, batch) -> None:
+    """Draw a thin bar for each condition that is being rendered, the first few of them."""
+    column = layout.column(align=True)
+    column.scale_y = 0.7
+    for name, fraction in list(batch.under_way.items())[:MOST]:
+        column.progress(factor=fraction, type="BAR", text=name)
 
 
 def progress_text(batch) -> str:

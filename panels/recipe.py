@@ -3,11 +3,16 @@
 import bpy
 
 from ..operators import findings, running
+from ..operators.check_recipe import RTB_OT_check_recipe
 from ..operators.export_recipe import RTB_OT_export_recipe
+from ..operators.open_folder import RTB_OT_open_folder
+from ..operators.pack_recipe import RTB_OT_pack_recipe
+from ..operators.render_condition import RTB_OT_render_condition
 from ..operators.render_recipe import RTB_OT_render_recipe
+from ..operators.select_culprit import RTB_OT_select_culprit
 from ..operators.show_montage import RTB_OT_show_montage
 from ..rtb_addon.blender.folders import recipe_name
-from .progress import draw_progress
+from .progress import draw_progress, draw_under_way
 from .sentences import draw_sentences
 
 
@@ -28,8 +33,8 @@ class RTB_PT_recipe(bpy.types.Panel):
         layout.separator()
         draw_run(layout)
         width = context.region.width
-        draw_sentences(layout, findings.errors, width, alert=True)
-        draw_sentences(layout, findings.remarks, width)
+        draw_sentences(layout, findings.errors, width, alert=True, beside=draw_culprit)
+        draw_sentences(layout, findings.remarks, width, beside=draw_culprit)
 
 
 def draw_options(layout, scene) -> None:
@@ -49,13 +54,29 @@ def draw_run(layout) -> None:
     """Draw what the user can do, or how far it is."""
     if running.batch is not None:
         draw_progress(layout, running.batch)
+        draw_under_way(layout, running.batch)
     else:
         row = layout.row()
         row.scale_y = 1.5
         row.operator(RTB_OT_render_recipe.bl_idname, icon="RENDER_STILL")
-    column = layout.column(align=True)
-    column.operator(RTB_OT_show_montage.bl_idname, icon="IMAGE_DATA")
-    column.operator(RTB_OT_export_recipe.bl_idname, icon="EXPORT")
+    grid = layout.grid_flow(row_major=True, columns=2, even_columns=True, align=True)
+    grid.operator(RTB_OT_render_condition.bl_idname)
+    grid.operator(RTB_OT_check_recipe.bl_idname, icon="CHECKMARK")
+    grid.operator(RTB_OT_show_montage.bl_idname)
+    grid.operator(RTB_OT_open_folder.bl_idname, icon="FILE_FOLDER")
+    grid.operator(RTB_OT_export_recipe.bl_idname)
+    grid.operator_context = "INVOKE_DEFAULT"
+    grid.operator(RTB_OT_pack_recipe.bl_idname, text="Pack…", icon="PACKAGE")
+
+
+def draw_culprit(layout, sentence: str) -> None:
+    """Draw the button that selects what a sentence speaks of, where it names something."""
+    culprit = findings.culprits.get(sentence)
+    if culprit is not None:
+        button = layout.operator(
+            RTB_OT_select_culprit.bl_idname, text="", icon="RESTRICT_SELECT_OFF", emboss=False
+        )
+        button.kind, button.name = culprit.kind.upper(), culprit.name
 
 
 class Details:

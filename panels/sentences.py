@@ -3,23 +3,41 @@
 from __future__ import annotations
 
 import textwrap
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
+from typing import Any
 
 import bpy
 
 LETTER = 6.6  # mean width of a letter [pixels at scale 1]
 MARGIN = 62  # what icon and borders take [pixels at scale 1]
+BUTTON = 26  # what a button beside a sentence takes [pixels at scale 1]
 MOST = 6  # sentences shown; the rest is a number
 
 
-def draw_sentences(layout, sentences: Sequence[str], width: int, alert: bool = False) -> None:
-    """Draw sentences in a box, red if something stopped; width is the region's [pixels]."""
+def draw_sentences(
+    layout,
+    sentences: Sequence[str],
+    width: int,
+    alert: bool = False,
+    beside: Callable[[Any, str], None] | None = None,
+) -> None:
+    """
+    Draw sentences in a box, red if something stopped.
+
+    Parameters
+    ----------
+    width : of the region [pixels]
+    beside : draws a button at the right of a sentence
+    """
     if not sentences:
         return
     box = layout.box()
     box.alert = alert
     for sentence in sentences[:MOST]:
-        draw_sentence(box, sentence, width, "ERROR" if alert else "INFO")
+        row = box.row()
+        draw_sentence(row, sentence, width - (BUTTON if beside else 0), "ERROR" if alert else "INFO")
+        if beside is not None:
+            beside(row, sentence)
     if len(sentences) > MOST:
         box.label(text=f"and {len(sentences) - MOST} more, see the folder's log.jsonl", icon="BLANK1")
 

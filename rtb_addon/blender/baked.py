@@ -2,7 +2,8 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterable, Sequence
+from collections.abc import Callable, Iterable, Iterator, Sequence
+from contextlib import contextmanager
 from typing import Any, TypeVar
 
 from ..conditions import Condition
@@ -26,13 +27,21 @@ def baked(
     with Kept() as kept:
         for condition in conditions:
             try:
-                remodel(scene, condition)
-                written.append(write())
-            except Exception as error:
-                raise RecipeError(f"the condition {condition.name} {_why(error)}") from error
+                with at_condition(condition.name):
+                    remodel(scene, condition)
+                    written.append(write())
             finally:
                 kept.give_back()
     return written
+
+
+@contextmanager
+def at_condition(name: str) -> Iterator[None]:
+    """Say which condition cannot be written, and why, where anything is raised."""
+    try:
+        yield
+    except Exception as error:
+        raise RecipeError(f"the condition {name} {_why(error)}") from error
 
 
 def _why(error: Exception) -> str:

@@ -6,6 +6,7 @@ from collections.abc import Sequence
 
 import bpy
 import numpy as np
+from numpy.typing import ArrayLike
 
 from ..spectra import FloatArray
 
@@ -35,6 +36,14 @@ def linear_rec709(colour: Sequence[float]) -> tuple[float, float, float]:
         rgb = to_rec709(space) @ rgb
     red, green, blue = np.maximum(rgb, 0.0).tolist()
     return red, green, blue
+
+
+def in_working_space(encoded: ArrayLike) -> list[float]:
+    """Return 8-bit sRGB as a colour of Blender's working space."""
+    stored = np.asarray(encoded, float) / 255
+    linear = np.where(stored <= 0.04045, stored / 12.92, ((stored + 0.055) / 1.055) ** 2.4)
+    space = working_space()
+    return (linear if space == _REC709 else np.linalg.solve(to_rec709(space), linear)).tolist()
 
 
 def to_rec709(space: str) -> FloatArray:

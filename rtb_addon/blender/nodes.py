@@ -37,6 +37,14 @@ def colour_of_material(material) -> Found:
     return Found(_three(socket.default_value), socket.name.lower(), socket.is_linked)
 
 
+def base_colour(thing):
+    """Return the socket with the one colour of a material or world, None where there is none or a texture."""
+    node = _surface_node(thing.node_tree) if has_nodes(thing) else None
+    name = {**_COLOURED, "BACKGROUND": "Color"}.get("" if node is None else node.type)
+    socket = None if node is None or name is None else node.inputs[name]
+    return None if socket is None or socket.is_linked else socket
+
+
 def glows(material) -> bool:
     """Return whether a material's nodes make it send out light of its own."""
     node = _surface_node(material.node_tree) if has_nodes(material) else None

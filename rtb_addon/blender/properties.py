@@ -16,9 +16,10 @@ from bpy.props import (
     StringProperty,
 )
 
+from . import table_properties
 from .conditions import set_conditions
+from .table_properties import RTB_PG_condition, RTB_PG_kept, RTB_PG_mapping, RTB_PG_variable
 
-SCHEMA = 1
 RENDERERS = (
     ("mitsuba", "Mitsuba", "Mitsuba 3, all bands along each path", 1),
     ("tracer", "Tracer", "The internal tracer, on numpy and Embree", 2),
@@ -42,22 +43,6 @@ _SPOKEN = (
 )
 
 
-class RTB_PG_cell(bpy.types.PropertyGroup):
-    """What one condition says for one variable."""
-
-    value: StringProperty(name="Value", description="Text of this cell")
-
-
-class RTB_PG_variable(bpy.types.PropertyGroup):
-    """A column of the conditions; its name is what (name) stands for."""
-
-
-class RTB_PG_condition(bpy.types.PropertyGroup):
-    """A row of the conditions; its name names its files. Cells are in the order of the variables."""
-
-    cells: CollectionProperty(type=RTB_PG_cell)
-
-
 def rendered_size(scene) -> tuple[int, int]:
     """Return the width and height that Blender renders a scene with [pixels]."""
     render = scene.render
@@ -73,7 +58,8 @@ def _resize(render, width: int, height: int) -> None:
 class RTB_PG_scene(bpy.types.PropertyGroup):
     """The recipe of a scene; its width and height are those that Blender renders with."""
 
-    schema: IntProperty(name="Schema", default=SCHEMA, options={"HIDDEN"})
+    # Files from before it was written down have none, and are of the first one.
+    schema: IntProperty(name="Schema", default=1, options={"HIDDEN"})
     name: StringProperty(name="Name", description="Name of the recipe; empty: that of the .blend file")
     folder: StringProperty(
         name="Folder",
@@ -98,8 +84,14 @@ class RTB_PG_scene(bpy.types.PropertyGroup):
     montage_fill: EnumProperty(name="Montage Order", items=FILLS, default="columns")
     variables: CollectionProperty(type=RTB_PG_variable)
     conditions: CollectionProperty(type=RTB_PG_condition)
+    mappings: CollectionProperty(type=RTB_PG_mapping)
+    mappings_text: PointerProperty(
+        type=bpy.types.Text, name="Further Mappings", description="Mappings in the words of RenderToolbox3"
+    )
+    kept: CollectionProperty(type=RTB_PG_kept)
+    active_mapping: IntProperty(options={"HIDDEN", "SKIP_SAVE"}, min=0)
     active_variable: IntProperty(options={"HIDDEN", "SKIP_SAVE"}, min=0)
-    active_condition: IntProperty(options={"HIDDEN", "SKIP_SAVE"}, min=0)
+    active_condition: IntProperty(options={"HIDDEN", "SKIP_SAVE"}, min=0, update=table_properties.row_chosen)
 
     # Kept in one place, with the render settings: no properties of Blender's.
     @property
@@ -168,9 +160,7 @@ class RTB_PG_object(bpy.types.PropertyGroup):
 
 
 _CLASSES = (
-    RTB_PG_cell,
-    RTB_PG_variable,
-    RTB_PG_condition,
+    *table_properties.CLASSES,
     RTB_PG_scene,
     RTB_PG_material,
     RTB_PG_light,

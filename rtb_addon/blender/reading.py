@@ -12,14 +12,21 @@ import bpy
 from ..conditions import Condition, Conditions
 from ..errors import RecipeError
 from ..recipe import Conventions, MontageOptions, RecipeOptions, write_recipe
+from ..scene.differences import Told, told_apart
 from ..scene.write_numbers import shortest
-from .baked import PARENT_COLUMNS, Remodel, baked, merged, parent_files
+from .baked import PARENT_COLUMNS, Remodel, at_condition, baked, merged, parent_files
 from .conditions import IMAGE_NAME
 from .evaluation import as_rendered
 from .folders import blend_folder, recipe_folder, recipe_name
+from .mapped import set_for, values_for
+from .migration import refuse_newer
 from .parent import Parent, ParentWriter
+from .path_mappings import paths_text
+from .preview import suspended
 from .seen import seen_in
 from .table import SpectrumFiles, Table, mappings_text
+from .varied import set_value, subject_of, value_at
+from .written_mappings import written_mappings
 
 _CAMERA = "camera"
 
@@ -33,6 +40,7 @@ class SceneRecipe:
     ----------
     parent : the parent scene, Collada 1.4.1
     mappings : text of the mappings file
+    generated : how many of its lines are made from what the scene says elsewhere, the first ones
     resources : contents of files by their names below resources/
     report : what had to be assumed or is left out, a sentence each
     folder : where it is saved unless said otherwise; None while an unsaved .blend file leaves that open
@@ -44,6 +52,7 @@ class SceneRecipe:
     parent: bytes
     conditions: Conditions
     mappings: str
+    generated: int
     resources: Mapping[str, bytes]
     provenance: Mapping[str, str]
     report: tuple[str, ...]
@@ -87,29 +96,63 @@ def read_recipe(scene: bpy.types.Scene, remodel: Remodel | None = None) -> Scene
     remodel : edits the scene for one condition, ``remodel(scene, condition)``; each condition then has its
         own parent scene, and the scene is as before afterwards
     """
+    refuse_newer(scene)
+    with suspended():
+        return _read(scene, remodel)
+
+
+def _read(scene, remodel: Remodel | None) -> SceneRecipe:
     name = recipe_name(scene)
     table, files = _table(scene, name), SpectrumFiles()
-    looks = [_look(scene)] if remodel is None else _baked(scene, table, remodel)
+    looks = _looks(scene, table, remodel)
     camera = _name_cameras(table, looks)
     parents = [each.parent for each in looks]
-    names = [name] if remodel is None else table.names
-    cells, further = parent_files(names, [each.content for each in parents])
+    names = table.names if len(looks) > 1 else [name]
+    contents = [each.content for each in parents]
+    told = told_apart(contents) if remodel is None else Told(contents, {})
+    cells, further = parent_files(names, told.contents)
     if further:
         table.varied(PARENT_COLUMNS[0], cells)
     statements = merged(names, [each.statements for each in parents])
-    mappings = mappings_text(statements, table, files, blend_folder())
+    mappings = mappings_text(statements, table, files, blend_folder()) + paths_text(told.values, table)
+    generated = mappings.count("\n")
     return SceneRecipe(
         name,
         _options(scene, camera),
         MontageOptions(scene.rtb.montage_columns or None, scene.rtb.montage_fill),
-        parents[0].content,
+        told.contents[0],
         table.conditions(name),
-        mappings,
+        mappings + written_mappings(scene),
+        generated,
         {**files.contents, **further},
         _provenance(),
         tuple(dict.fromkeys(remark for each in looks for remark in each.remarks)),
         _folder(scene),
     )
+
+
+def _looks(scene, table: Table, remodel: Remodel | None) -> list[_Look]:
+    """Return the scene once, or as the properties that conditions set and a function make it for each."""
+    mapped = scene.rtb.mappings
+    if remodel is not None:
+
+        def both(scene, condition) -> None:
+            for place, value in values_for(scene.rtb, condition.cells):
+                set_value(place, value)
+            remodel(scene, condition)
+
+        return _baked(scene, table, both if mapped else remodel)
+    if not mapped:
+        return [_look(scene)]
+    if not table.names:
+        raise RecipeError(f"{subject_of(mapped[0])} varies, but there are no conditions: add one")
+    looks: dict[str, _Look] = {}
+    found = []
+    for name, cells in zip(table.names, table.typed, strict=True):
+        with at_condition(name), set_for(scene.rtb, cells):
+            values = repr([value_at(place) for place, _ in values_for(scene.rtb, cells)])
+            found.append(looks[values] if values in looks else looks.setdefault(values, _look(scene)))
+    return found
 
 
 def _look(scene) -> _Look:

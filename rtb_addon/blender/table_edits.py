@@ -64,11 +64,12 @@ def move_row(settings, by: int) -> None:
     settings.active_condition = place
 
 
-def add_variable(settings, name: str, value: str = "") -> int:
+def add_variable(settings, name: str, value: str = "", kind: str = "TEXT") -> int:
     """Add a column whose every cell says the same, make it the active one, and return its index."""
     _refuse_name(settings, name)
     cells = [cells_of(settings, row) for row in settings.conditions]
-    settings.variables.add().name = name
+    variable = settings.variables.add()
+    variable.name, variable.kind = name, kind
     for row, said in zip(settings.conditions, cells, strict=True):
         _set_cells(row, [*said, value], len(settings.variables))
     settings.active_variable = len(settings.variables) - 1
@@ -90,7 +91,7 @@ def duplicate_variable(settings) -> None:
     index = settings.active_variable
     name = free_name(settings.variables[index].name, [each.name for each in settings.variables])
     said = [cells_of(settings, row)[index] for row in settings.conditions]
-    add_variable(settings, name)
+    add_variable(settings, name, kind=settings.variables[index].kind)
     for row, value in zip(settings.conditions, said, strict=True):
         row.cells[-1].value = value
     move_variable(settings, index + 1 - settings.active_variable)
@@ -108,7 +109,7 @@ def move_variable(settings, by: int) -> None:
 
 
 def rename_variable(settings, name: str) -> None:
-    """Rename the active column, also where spectra of this file's materials, lamps and so on name it."""
+    """Rename the active column, also where spectra of this file and mappings of this scene name it."""
     variable = settings.variables[settings.active_variable]
     if name == variable.name:
         return
@@ -117,6 +118,10 @@ def rename_variable(settings, name: str) -> None:
         text = getattr(owner, field)
         if f"({variable.name})" in text and not owner.id_data.library:
             setattr(owner, field, text.replace(f"({variable.name})", f"({name})"))
+    for mapping in settings.mappings:
+        mapping.value = mapping.value.replace(f"({variable.name})", f"({name})")
+    if (text := settings.mappings_text) is not None and f"({variable.name})" in (said := text.as_string()):
+        text.from_string(said.replace(f"({variable.name})", f"({name})"))
     variable.name = name
 
 

@@ -6,6 +6,7 @@ from collections.abc import Sequence
 
 from ..errors import RecipeError
 from .conditions import IMAGE_NAME, set_conditions
+from .migration import kind_of
 from .table_edits import add_rows, cells_of, columns
 
 HOW = (
@@ -53,14 +54,24 @@ def append_rows(settings, rows: Sequence[Sequence[str]]) -> int:
     for number, row in enumerate(rows, 1):
         if len(row) > len(header):
             raise RecipeError(f"row {number} has {len(row)} cells for {len(header)} columns of the table")
+    known = len(names)
     columns(settings, (name for name in header if name != IMAGE_NAME))
     said = [dict(zip(header, row, strict=False)) for row in rows]
     names = [each.name for each in settings.variables]
     add_rows(settings, [(each.get(IMAGE_NAME, ""), [each.get(name, "") for name in names]) for each in said])
+    for variable in settings.variables[known:]:
+        variable.kind = kind_of(variable.name, [each.get(variable.name, "") for each in said])
     return len(rows)
 
 
-def fill(settings, variables: Sequence[str], rows: Sequence[Sequence[str]], names: Sequence[str], how: str):
+def fill(
+    settings,
+    variables: Sequence[str],
+    rows: Sequence[Sequence[str]],
+    names: Sequence[str],
+    how: str,
+    kind: str = "",
+) -> None:
     """
     Put a design into the table.
 
@@ -70,7 +81,9 @@ def fill(settings, variables: Sequence[str], rows: Sequence[Sequence[str]], name
     rows : a value for each of the variables
     names : of each row, for the conditions' names
     how : one of HOW
+    kind : of new variables; empty for what fits their values
     """
+    known = {each.name for each in settings.variables}
     if how == "FILL" and len(rows) < len(settings.conditions):
         raise RecipeError(f"{len(rows)} values for {len(settings.conditions)} rows, ask for one for each row")
     places = columns(settings, variables)
@@ -80,6 +93,10 @@ def fill(settings, variables: Sequence[str], rows: Sequence[Sequence[str]], name
         _cross(settings, places, rows, names)
     else:
         _add(settings, places, rows, names)
+    for place, name in zip(places, variables, strict=True):
+        if name not in known:
+            cells = [cells_of(settings, row)[place] for row in settings.conditions]
+            settings.variables[place].kind = kind or kind_of(name, cells)
     settings.active_variable = places[0]
 
 

@@ -20,7 +20,7 @@ class RecordingLayout:
     def row(self, **_):
         return RecordingLayout(self.drawn)
 
-    column = box = grid_flow = row
+    column = box = grid_flow = split = row
 
     def panel(self, name: str, **_):
         return self.row(), self.row()
@@ -35,6 +35,18 @@ class RecordingLayout:
         self.drawn.append(("operator", name))
         return type("Properties", (), {})()
 
+    def context_string_set(self, name: str, value: str) -> None:
+        self.drawn.append(("context", f"{name}={value}"))
+
+    def operator_menu_enum(self, name: str, choice: str, **_) -> None:
+        self.operator(name)
+        kind = getattr(getattr(bpy.ops, name.split(".")[0]), name.split(".")[1]).get_rna_type()
+        assert choice in kind.properties
+
+    def prop_search(self, owner, name: str, listed, listed_name: str, **_) -> None:
+        assert listed_name in listed.bl_rna.properties
+        self.prop(owner, name)
+
     def menu(self, name: str, **_) -> None:
         assert hasattr(bpy.types, name), f"there is no menu {name}"
         self.drawn.append(("menu", name))
@@ -44,6 +56,10 @@ class RecordingLayout:
         assert listed in owner.bl_rna.properties
         assert active in active_owner.bl_rna.properties
         self.drawn.append(("list", kind))
+
+    def template_ID(self, owner, name: str, **_) -> None:
+        assert name in owner.bl_rna.properties, f"{owner} has no {name}"
+        self.drawn.append(("prop", name))
 
     def template_icon(self, icon_value: int, scale: float) -> None:
         assert icon_value >= 0

@@ -293,7 +293,7 @@ def test_the_panel_draws_a_header_a_list_and_the_active_cell(settings, extension
     layout = drawn(extension, "RTB_PT_conditions")
     assert layout.names("operator").count("rtb.select_variable") == 2
     assert layout.names("list") == ["RTB_UL_conditions"]
-    assert layout.names("prop")[-1] == "value"
+    assert layout.names("prop")[-2:] == ["value", "rtb_preview"]
 
 
 def test_columns_that_do_not_fit_are_on_other_pages(settings, extension):

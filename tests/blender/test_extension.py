@@ -45,4 +45,4 @@ def test_every_name_begins_with_ours_and_every_tooltip_is_a_sentence_without_ful
         kind = getattr(bpy.ops.rtb, name).get_rna_type()
         assert kind.description
         assert not kind.description.endswith(".")
-        assert kind.name == kind.name.title().replace(" In ", " in ")
+        assert kind.name == kind.name.title().replace(" In ", " in ").replace(" As ", " as ")

@@ -46,12 +46,16 @@ def running(extension):
 def batch(**said):
     """Return what stands for a batch that is under way."""
     usual = {"progress": 0.25, "finished": 3, "total": 12, "remaining": 74.6, "cancelled": False}
+    usual["under_way"] = {"blue": 0.5}
     return SimpleNamespace(**{**usual, **said})
 
 
 def test_the_recipes_panel_offers_what_can_be_done(panel, running):
     layout = panel("recipe", "RTB_PT_recipe")
-    assert layout.names("operator") == ["rtb.render_recipe", "rtb.show_montage", "rtb.export_recipe"]
+    assert layout.names("operator") == [
+        *("rtb.render_recipe", "rtb.render_condition", "rtb.check_recipe"),
+        *("rtb.show_montage", "rtb.open_folder", "rtb.export_recipe", "rtb.pack_recipe"),
+    ]
     assert layout.names("prop") == [
         *("name", "folder", "renderer"),
         *("resolution_x", "resolution_y", "resolution_percentage"),
@@ -72,7 +76,7 @@ def test_the_recipes_panel_offers_what_can_be_done(panel, running):
 def test_a_running_batch_shows_how_far_it_is_and_can_be_cancelled(panel, running, said, text):
     running.module.batch = batch(**said)
     layout = panel("recipe", "RTB_PT_recipe")
-    assert layout.names("progress") == [text]
+    assert layout.names("progress") == [text, "blue"]
     assert layout.names("operator")[0] == "rtb.cancel_rendering"
     assert "rtb.render_recipe" not in layout.names("operator")
 

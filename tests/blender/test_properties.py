@@ -50,10 +50,10 @@ def kept(scene) -> dict:
     return found
 
 
-def test_nothing_is_forgotten_by_saving_and_opening(tagged, tmp_path):
+def test_nothing_is_forgotten_by_saving_and_opening(tagged, library, tmp_path):
     before = kept(tagged)
     assert before["rows"] == [tuple(row) for row in ROWS]
-    assert before["scene.schema"] == 1
+    assert before["scene.schema"] == library("blender.migration").SCHEMA
     bpy.ops.wm.save_as_mainfile(filepath=str(tmp_path / "family.blend"))
     bpy.ops.wm.read_homefile(use_factory_startup=True, use_empty=True)
     bpy.ops.wm.open_mainfile(filepath=str(tmp_path / "family.blend"))

@@ -1,0 +1,65 @@
+"""Everything that is wrong or odd about a scene's recipe, without rendering."""
+
+from __future__ import annotations
+
+import json
+
+import bpy
+
+from ..rtb_addon.blender import read_recipe
+from ..rtb_addon.errors import RecipeError
+from . import checking, findings
+from .child_verb import ChildVerb, Ended
+from .tell import tell
+
+
+class RTB_OT_check_recipe(bpy.types.Operator):
+    """Say everything that is wrong with the recipe, without rendering; each finding can be selected"""
+
+    bl_idname = "rtb.check_recipe"
+    bl_label = "Check"
+    bl_options = {"REGISTER"}
+
+    @classmethod
+    def poll(cls, context):
+        if checking.child is not None:
+            cls.poll_message_set("The recipe is being checked")
+        return checking.child is None
+
+    def execute(self, context):
+        from ..rtb_addon.blender.scene_problems import scene_problems
+
+        problems, recipe = scene_problems(context.scene), None
+        try:
+            recipe = read_recipe(context.scene)
+            folder = findings.exported(recipe)
+        except RecipeError as error:
+            findings.clear()
+            findings.note(dict.fromkeys([*problems, str(error)]))
+            self.report({"WARNING"}, _counted(len(findings.errors)))
+            return {"FINISHED"}
+        findings.note(problems)
+        checking.child = ChildVerb(["check", str(folder), "--json"], _take)
+        if bpy.app.background:
+            checking.child = None
+            self.report({"INFO"}, _counted(len(findings.errors)))
+        return {"FINISHED"}
+
+
+def _take(ended: Ended) -> None:
+    """Take in what the child has found."""
+    checking.child = None
+    found = [json.loads(line) for line in ended.lines if line.startswith("{")]
+    findings.note(
+        [each["sentence"] for each in found if each["problem"]]
+        or (ended.complaints[-1:] if not found and ended.status else []),
+        [each["sentence"] for each in found if not each["problem"] and "meaning" not in each],
+    )
+    if not bpy.app.background:
+        tell("WARNING" if findings.errors else "INFO", _counted(len(findings.errors)))
+
+
+def _counted(count: int) -> str:
+    if not count:
+        return "Checked: the recipe can be rendered"
+    return f"Checked: {count} problem{'s' * (count != 1)}, see the recipe's panel"

@@ -1,0 +1,23 @@
+"""Another line of the written mappings."""
+
+import bpy
+
+from ..rtb_addon.blender import written_mappings
+from .mapping_verbs import LineVerb
+
+
+class RTB_OT_edit_mapping_line(LineVerb, bpy.types.Operator):
+    """Change this line of the written mappings"""
+
+    bl_idname = "rtb.edit_mapping_line"
+    bl_label = "Edit Line"
+
+    text: bpy.props.StringProperty(name="Line")
+
+    def invoke(self, context, event):
+        lines, _ = written_mappings.written_lines(context.scene)
+        self.text = next((each.text for each in lines if each.line == self.line), "")
+        return context.window_manager.invoke_props_dialog(self, width=420, confirm_text="Change")
+
+    def edit(self, context):
+        written_mappings.rewrite(context.scene, self.line, self.text)
