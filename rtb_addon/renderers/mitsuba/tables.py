@@ -45,12 +45,14 @@ class Tables:
     constants : whether a material has a part that no spectrum multiplies
     beams : whether some emitter is a spot
     suns : number of emitters that are discs in the sky
+    materials : ids of the materials, in the order of their rows
     parts : how many parts a band has, of which each path takes one (see band_parts.py)
     single : whether there is one emitter, whose spectrum can wait until the end
     """
 
     def __init__(self, loaded: LoadedScene, source: OneHotScene, bands: Bands, kind: BandKind) -> None:
         self.padded_bands = -len(bands) % _PACKET + len(bands)
+        self.materials = tuple(source.materials)
         self.parts, self._part = parts_of(kind), None
         self.lobes, self.metals = source.lobes, source.metals
         self.constants = any(lobe.constant for lobes in source.materials.values() for lobe in lobes)
@@ -111,7 +113,7 @@ class Tables:
 
     def emitter_row(self, emitter, active) -> Any:
         """Return the row of each emitter."""
-        return dr.gather(mi.UInt32, self._emitter_rows, _number(emitter), active)
+        return dr.gather(mi.UInt32, self._emitter_rows, numbers_of(emitter), active)
 
     def emission(self, row, towards, active) -> list | None:
         """
@@ -138,7 +140,7 @@ class Tables:
 
     def material_row(self, bsdf, active) -> Any:
         """Return the row of each material."""
-        return dr.gather(mi.UInt32, self._bsdf_rows, _number(bsdf), active)
+        return dr.gather(mi.UInt32, self._bsdf_rows, numbers_of(bsdf), active)
 
     def coefficients(self, row, colour, active) -> list:
         """Return the coefficients of a material's lobes from a colour of Mitsuba's."""
@@ -218,7 +220,12 @@ def _steepness(emitter: Emitter) -> float:
     return min(_HARD, 1 / width) if width > 0 else _HARD
 
 
-def _number(pointer) -> Any:
+def number_of(pointer) -> int:
+    """Return Mitsuba's number of the object that a pointer points to."""
+    return int(numbers_of(pointer)[0])
+
+
+def numbers_of(pointer) -> Any:
     """Return Mitsuba's numbers of the objects that pointers point to; 0 is none."""
     return dr.reinterpret_array(mi.UInt32, pointer)
 
@@ -226,7 +233,7 @@ def _number(pointer) -> Any:
 def _rows_by_pointer(pointers: dict, ids) -> Any:
     """Return a table from Mitsuba's numbers of objects to our rows."""
     order = {id: row for row, id in enumerate(ids)}
-    numbers = {id: int(_number(pointer)[0]) for id, pointer in pointers.items()}
+    numbers = {id: number_of(pointer) for id, pointer in pointers.items()}
     rows = np.zeros(max(numbers.values(), default=0) + 1, np.uint32)
     for id, number in numbers.items():
         rows[number] = order[id]
