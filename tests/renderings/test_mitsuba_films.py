@@ -5,9 +5,9 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
+from rtb_addon.renderers.filters import FILTERS, filter_of
 from rtb_addon.renderers.interface import RenderOptions
 from rtb_addon.renderers.mitsuba import renderer, session
-from rtb_addon.renderers.mitsuba.filters import FILTERS, filter_of
 from rtb_addon.scene.render_scene import Camera, Crop, Shape
 from rtb_addon.spectra import Bands, Spectrum
 from tests.renderings.mitsuba_scenes import DOWN, FULL_TURN, INTENSITY, at, disc, lamp, scene, square

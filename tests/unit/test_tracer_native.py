@@ -14,6 +14,7 @@ from rtb_addon.renderers.tracer import native
 from rtb_addon.renderers.tracer.sampler import Sampler, sequence
 from rtb_addon.scene.render_scene import (
     Camera,
+    Crop,
     Film,
     Integrator,
     Light,
@@ -72,7 +73,7 @@ def full():
         },
         environment=Light("World", "environment", np.eye(4), {**light, "filename": ""}),
         integrator=Integrator("path", 7, 12, 3),
-        film=Film(32, 24, Bands.around([400, 433.3, 500]), "centre"),
+        film=Film(32, 24, Bands.around([400, 433.3, 500]), "centre", "mitchell", Crop(1, 2, 30, 20)),
     )
 
 
@@ -152,10 +153,6 @@ def test_what_the_tracer_lacks_is_said_in_one_sentence(full, tmp_path):
     assert not sentence.endswith(".")
     sunsky = Light("Sky", "sunsky", np.eye(4), {})
     assert "environment is sunsky" in refused(replace(full, environment=sunsky), tmp_path)
-    mean = replace(full, film=replace(full.film, band_kind="mean"))
-    assert refused(mean, tmp_path) == (
-        "the band values are to be mean, which tracer cannot render; it knows averaged, centre"
-    )
     textured = Material("Paint", "matte", {"diffuseReflectance": TextureUse("checks")})
     assert "texture checks" in refused(
         replace(full, materials={**full.materials, "Paint": textured}), tmp_path
@@ -164,7 +161,7 @@ def test_what_the_tracer_lacks_is_said_in_one_sentence(full, tmp_path):
 
 def test_a_scene_of_plain_things_lacks_nothing(full):
     assert fidelity.unsupported(full, "tracer") == []
-    assert len(fidelity.unsupported(full, "somebody")) == 9
+    assert len(fidelity.unsupported(full, "somebody")) == 10
 
 
 @pytest.mark.parametrize(("name", "value"), [("radius", -1.0), ("cone", 200.0), ("blend", float("nan"))])

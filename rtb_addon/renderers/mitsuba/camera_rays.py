@@ -11,8 +11,8 @@ from typing import Any
 import drjit as dr
 import mitsuba as mi
 
+from ..filters import filter_of
 from .arrays import floats
-from .filters import filter_of
 from .native import Native
 
 

@@ -13,7 +13,7 @@ import numpy as np
 from ...errors import RenderingError
 from ...scene.render_scene import Crop
 from ...spectra import BandKind, Bands
-from .filters import FILTERS
+from ..filters import FILTERS
 from .spectrum_xml import properties
 
 

@@ -20,11 +20,11 @@ import numpy as np
 
 from ...spectra import FloatArray
 from ..interface import RenderOptions, Report
+from ..rounds import Progress, Rounds, rounds_of
 from .camera_rays import CameraRays
 from .loaded import LoadedScene
 from .lobe_path import path_radiance
 from .native import Native
-from .rounds import Progress, Rounds, rounds_of
 from .tables import Tables
 
 # Paths of a tile, for some 32 bands: some tenths of a second on one thread.

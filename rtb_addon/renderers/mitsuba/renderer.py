@@ -15,11 +15,11 @@ from ...layers import Layers
 from ...scene.render_scene import RenderScene
 from ...spectra import FloatArray
 from ...spectral_image import SpectralImage
+from ..filters import FILTERS
 from ..interface import Extras, Installed, RenderOptions, Report
+from ..rounds import Rounds, tells_noise
 from . import llvm, session
-from .filters import FILTERS
 from .native import Native, read_native
-from .rounds import Rounds, tells_noise
 from .translate import translate
 
 _log = logging.getLogger(__name__)

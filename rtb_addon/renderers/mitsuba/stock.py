@@ -10,8 +10,8 @@ import mitsuba as mi
 import numpy as np
 
 from ..interface import RenderOptions, Report
+from ..rounds import Progress, Rounds, rounds_of
 from .native import Native
-from .rounds import Progress, Rounds, rounds_of
 
 # Paths of a round: some tenths of a second.
 _PATHS = 2**17

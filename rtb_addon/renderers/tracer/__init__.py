@@ -14,6 +14,7 @@ from pathlib import Path
 from ...scene.render_scene import RenderScene
 from ...spectral_image import SpectralImage
 from ..interface import Extras, Installed, RenderOptions, Report
+from ..rounds import tells_noise
 from . import native, passes
 
 # Goes up when a picture of the same native scene changes.
@@ -37,19 +38,22 @@ class Tracer:
     def render(self, native_file: Path, options: RenderOptions, report: Report) -> SpectralImage:
         """Render a native scene [W sr-1 m-2 nm-1]; the same file gives the same bits on every run."""
         scene = native.read(native_file)
-        picture = passes.render(scene, passes.Alone(scene), options, report)
+        report(0.0)
+        painter = passes.Alone(scene)
+        rounds = passes.render(scene, painter, options, report)
         attributes = {
             "renderer": self.name,
             "renderer_version": VERSION,
             "integrator": f"{scene.integrator.kind}, depth {scene.integrator.depth}",
-            "samples": str(picture.samples),
+            "samples": str(rounds.count * rounds.samples),
             "seed": str(scene.integrator.seed),
-            "ray_kernel": picture.kernel,
+            "ray_kernel": painter.kernel,
         }
-        error = picture.standard_error
+        error = rounds.error() if tells_noise(options) else None
         if error is not None:
-            attributes["noise"] = f"{passes.noise(picture.radiance, error):.4g}"
-        return SpectralImage(picture.radiance, scene.film.bands, scene.film.band_kind, 1.0, attributes, error)
+            attributes["noise"] = f"{rounds.noise():.4g}"
+        film = scene.film
+        return SpectralImage(rounds.mean(), film.bands, film.band_kind, 1.0, attributes, error)
 
 
 def renderer() -> Tracer:

@@ -20,6 +20,7 @@ from ...errors import RecipeError, RenderingError
 from ...files import write_text
 from ...scene.render_scene import (
     Camera,
+    Crop,
     Film,
     Integrator,
     Light,
@@ -91,6 +92,7 @@ def _film(film: Film) -> dict[str, Any]:
         "width": film.width,
         "height": film.height,
         "filter": film.filter,
+        "crop": film.crop,
         "band_kind": film.band_kind,
         "bands": bands,
     }
@@ -147,7 +149,6 @@ def _text(value: Any, indent: str = "") -> str:
 
 def _read_scene(native: dict[str, Any], folder: Path) -> RenderScene:
     camera, environment = native["camera"], native["environment"]
-    film, bands = native["film"], native["film"]["bands"]
     materials = [
         Material(one["id"], one["model"], _read_parameters(one["parameters"], folder))
         for one in native["materials"]
@@ -168,8 +169,13 @@ def _read_scene(native: dict[str, Any], folder: Path) -> RenderScene:
         textures={one["id"]: _read_texture(one, folder) for one in native["textures"]},
         environment=None if environment is None else _read_light(environment, folder),
         integrator=Integrator(**native["integrator"]),
-        film=Film(**{**film, "bands": Bands(np.array(bands["centres"]), np.array(bands["edges"]))}),
+        film=_read_film(native["film"]),
     )
+
+
+def _read_film(one: dict[str, Any]) -> Film:
+    bands = Bands(np.array(one["bands"]["centres"]), np.array(one["bands"]["edges"]))
+    return Film(**{**one, "bands": bands, "crop": Crop(*one["crop"]) if one["crop"] else None})
 
 
 def _read_light(one: dict[str, Any], folder: Path) -> Light:

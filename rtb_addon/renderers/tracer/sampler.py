@@ -40,7 +40,7 @@ class Sampler:
     pixels : (pixels,) int array, their numbers in the whole picture
     samples : paths per pixel
     pairs : pairs that a path may ask for
-    seed, number : of the picture, and of its round; other rounds are independent
+    seed, number : of the picture, and of its round; others are independent
 
     Attributes
     ----------

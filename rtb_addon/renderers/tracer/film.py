@@ -1,20 +1,20 @@
 """
-Reconstruction filters, by sampling them: a path goes through a place that the filter itself has chosen.
+Where on the film paths go through: a place that the reconstruction filter itself has chosen.
 
 A path counts for its own pixel alone, so that pixels have nothing to do with each other. What a filter weighs
 less is chosen less often; where it is negative, a path counts with a minus. As in Ernst, Stamminger and
-Greiner, *Filter Importance Sampling*, 2006. The parameters are Mitsuba's defaults.
+Greiner, *Filter Importance Sampling*, 2006.
 """
 
 from __future__ import annotations
 
-from collections.abc import Callable, Mapping
 from functools import cache
 
 import numpy as np
 
 from ...scene.render_scene import Filter
 from ...spectra import FloatArray
+from ..filters import FILTERS
 
 # Steps into which a filter is cut to be sampled; within a step all places are alike, and weighed.
 _STEPS = 4096
@@ -36,7 +36,7 @@ def offsets(filter: Filter, u: FloatArray, v: FloatArray) -> tuple[FloatArray, F
 
 def _sampled(filter: Filter, u: FloatArray) -> tuple[FloatArray, FloatArray]:
     """Return places along one direction, and the filter there over their density and its integral."""
-    radius, shape = FILTERS[filter]
+    shape, radius, _ = FILTERS[filter]
     sums, chance, whole = _table(filter)
     step = np.searchsorted(sums[1:], u, side="right").clip(max=_STEPS - 1)
     inside = ((u - sums[step]) / chance[step]).clip(0, 1)
@@ -48,7 +48,7 @@ def _sampled(filter: Filter, u: FloatArray) -> tuple[FloatArray, FloatArray]:
 @cache
 def _table(filter: Filter) -> tuple[FloatArray, FloatArray, float]:
     """Return how often each step is chosen, summed up from 0 and itself, and the filter's integral."""
-    radius, shape = FILTERS[filter]
+    shape, radius, _ = FILTERS[filter]
     edges = np.linspace(-radius, radius, _STEPS + 1)
     middle = (edges[1:] + edges[:-1]) / 2
     # Simpson's rule; a step in which the filter changes its sign must be chosen, too.
@@ -57,39 +57,3 @@ def _table(filter: Filter) -> tuple[FloatArray, FloatArray, float]:
     chance = size / size.sum()
     sums = np.concatenate([[0.0], np.cumsum(chance)])
     return sums, chance, float(parts.sum() * 2 * radius / _STEPS)
-
-
-def _tent(x: FloatArray) -> FloatArray:
-    return np.maximum(1 - np.abs(x), 0)
-
-
-def _gaussian(x: FloatArray) -> FloatArray:
-    """Return a bell of standard deviation 0.5, let down to 0 at four of them."""
-    return np.maximum(np.exp(-2 * x * x) - np.exp(-8.0), 0)
-
-
-def _cubic(b: float, c: float) -> Callable[[FloatArray], FloatArray]:
-    """Return a filter of Mitchell and Netravali, *Reconstruction Filters in Computer Graphics*, 1988."""
-
-    def shape(x: FloatArray) -> FloatArray:
-        x = np.abs(x)
-        near = (12 - 9 * b - 6 * c) * x**3 + (-18 + 12 * b + 6 * c) * x**2 + (6 - 2 * b)
-        far = (-b - 6 * c) * x**3 + (6 * b + 30 * c) * x**2 + (-12 * b - 48 * c) * x + (8 * b + 24 * c)
-        return np.where(x < 1, near, np.where(x < 2, far, 0)) / 6
-
-    return shape
-
-
-def _lanczos(x: FloatArray) -> FloatArray:
-    """Return a sinc that a wider one cuts off after three lobes."""
-    return np.where(np.abs(x) < 3, np.sinc(x) * np.sinc(x / 3), 0)
-
-
-# Name -> radius [pixels] and shape, up to a factor.
-FILTERS: Mapping[str, tuple[float, Callable[[FloatArray], FloatArray]]] = {
-    "tent": (1.0, _tent),
-    "gaussian": (2.0, _gaussian),
-    "mitchell": (2.0, _cubic(1 / 3, 1 / 3)),
-    "catmullrom": (2.0, _cubic(0.0, 0.5)),
-    "lanczos": (3.0, _lanczos),
-}

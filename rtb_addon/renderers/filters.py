@@ -12,7 +12,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from ...spectra import FloatArray
+from ..spectra import FloatArray
 
 # Places of the filter that are equally probable, with straight lines between.
 _QUANTILES, _GRID = 2048, 40_001

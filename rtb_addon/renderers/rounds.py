@@ -7,10 +7,10 @@ from collections.abc import Callable
 
 import numpy as np
 
-from ...spectra import FloatArray
-from ..interface import RenderOptions, Report
+from ..spectra import FloatArray
+from .interface import RenderOptions, Report
 
-# More samples of a pixel than this are taken in several rounds: memory is the limit.
+# More samples of a pixel than this are taken in several rounds where they all are in memory at once.
 _MOST_SAMPLES = 256
 # Where rounds tell the noise, there are so many at least, of so many samples at most.
 _FEWEST_ROUNDS, _FEW_SAMPLES = 4, 64
@@ -34,12 +34,18 @@ class Rounds:
         self._spread: FloatArray = np.zeros(())
 
     def add(self, found: FloatArray) -> None:
-        """Add the mean radiances of a round, of any shape that is always the same."""
+        """Add the mean radiances of a round, of any shape that is always the same; keep them."""
         self.count += 1
-        away = found - self._mean
-        self._mean = self._mean + away / self.count
+        if self.count == 1:
+            self._mean = found
+            return
+        if self.count == 2:
+            self._spread = np.zeros_like(found)
         # Welford's way keeps its digits where the spread is small.
-        self._spread = self._spread + away * (found - self._mean)
+        away = found - self._mean
+        self._mean += away / self.count
+        away *= found - self._mean
+        self._spread += away
 
     def mean(self) -> FloatArray:
         """Return the mean of all rounds."""
@@ -51,8 +57,8 @@ class Rounds:
 
     def noise(self) -> float:
         """Return the root of the mean squared standard error over the mean; 0 where all is dark."""
-        mean = float(self._mean.mean())
-        error = float(np.sqrt(np.mean(self._spread) / (self.count - 1) / self.count))
+        mean = float(self._mean.mean(dtype=float))
+        error = float(np.sqrt(np.mean(self._spread, dtype=float) / (self.count - 1) / self.count))
         return error / mean if error else 0.0
 
 
@@ -90,13 +96,19 @@ def tells_noise(options: RenderOptions) -> bool:
     return options.errors or options.error is not None
 
 
-def rounds_of(samples: int, options: RenderOptions) -> tuple[int, int]:
-    """Return how many rounds a picture takes at most, and how many samples of a pixel each."""
+def rounds_of(samples: int, options: RenderOptions, memory: int = _MOST_SAMPLES) -> tuple[int, int]:
+    """
+    Return how many rounds a picture takes at most, and how many samples of a pixel each.
+
+    Parameters
+    ----------
+    memory : how many samples of a pixel a renderer can take in one round
+    """
     if options.seconds is not None:
         fewest, most = 2, _QUICK_SAMPLES
     elif tells_noise(options):
         fewest, most = min(_FEWEST_ROUNDS, max(2, samples)), _FEW_SAMPLES
     else:
-        fewest, most = 1, _MOST_SAMPLES
+        fewest, most = 1, memory
     count = max(fewest, -(-samples // most))
     return count, -(-samples // count)
