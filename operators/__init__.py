@@ -2,7 +2,7 @@
 
 from bpy.utils import register_classes_factory
 
-from . import call_tooltips, running, watching
+from . import call_tooltips, image_editor, running, watching
 from .add_condition import RTB_OT_add_condition
 from .add_variable import RTB_OT_add_variable
 from .cancel_rendering import RTB_OT_cancel_rendering
@@ -105,6 +105,7 @@ CLASSES = (
     RTB_OT_test_renderers,
     RTB_OT_vary_property,
     RTB_AP_preferences,
+    *image_editor.CLASSES,
 )
 
 _register, _unregister = register_classes_factory(CLASSES)
@@ -114,6 +115,7 @@ def register() -> None:
     """Make the operators known to Blender."""
     call_tooltips.add_to(CLASSES)
     _register()
+    image_editor.register()
     running.register()
     watching.register()
 
@@ -122,4 +124,5 @@ def unregister() -> None:
     """Stop what is rendering and take the operators back."""
     watching.unregister()
     running.unregister()
+    image_editor.unregister()
     _unregister()

@@ -1,4 +1,4 @@
-"""Montages as Blender's images, and the Image Editors that show them."""
+"""Pictures of renderings as Blender's images, and the Image Editors that show them."""
 
 from __future__ import annotations
 
@@ -10,12 +10,29 @@ import bpy
 MARK = "rtb_montage"
 
 
-def load(file: Path) -> bpy.types.Image:
-    """Return the image of a picture file, as the file is now."""
-    image = bpy.data.images.load(str(file), check_existing=True)
+def load(file: Path, name: str) -> bpy.types.Image:
+    """Return the image of a recipe, one however many files of it there are, as a file is now."""
+    if (image := find(name)) is None:
+        image = bpy.data.images.load(str(file))
+        image.name = name
+        image[MARK] = True
+    elif Path(bpy.path.abspath(image.filepath)) != file:
+        image.filepath = str(file)
     image.reload()
-    image[MARK] = True
     return image
+
+
+def find(name: str) -> bpy.types.Image | None:
+    """Return the image of a recipe."""
+    return next((image for image in bpy.data.images if image.get(MARK) and image.name == name), None)
+
+
+def redraw(image: bpy.types.Image) -> None:
+    """Let the Image Editors that show an image be drawn anew."""
+    for window in bpy.context.window_manager.windows:
+        for area in window.screen.areas:
+            if area.type == "IMAGE_EDITOR" and area.spaces.active.image == image:
+                area.tag_redraw()
 
 
 def editor(context) -> bpy.types.Area | None:

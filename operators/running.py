@@ -12,7 +12,7 @@ from typing import TYPE_CHECKING
 
 import bpy
 
-from . import checking, findings, montages, row_states
+from . import checking, findings, montages, row_states, viewing
 from .tell import tell
 
 if TYPE_CHECKING:
@@ -59,6 +59,7 @@ def _look() -> float | None:
         return None
     if batch.take():
         _redraw()
+        viewing.follow(batch)
     if not batch.ended:
         return INTERVAL
     _conclude(batch)
@@ -66,15 +67,14 @@ def _look() -> float | None:
 
 
 def _conclude(ended: ChildBatch) -> None:
-    """Tell how a batch ended and show its montage, in an Image Editor where one is open."""
+    """Tell how a batch ended; without a window its montage becomes an image now, with one it is there."""
     global batch
     batch = None
     row_states.end()
     findings.note(ended.failures, ended.warnings)
-    if ended.montage is not None and ended.montage.is_file():
-        image = montages.load(ended.montage)
-        if not bpy.app.background and (area := montages.editor(bpy.context)):
-            montages.show(image, area)
+    viewing.followed_to_the_end()
+    if bpy.app.background and ended.montage is not None and ended.montage.is_file():
+        montages.load(ended.montage, ended.montage.stem)
     tell(*_outcome(ended))
     _redraw()
 

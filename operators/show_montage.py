@@ -4,7 +4,7 @@ import bpy
 
 from ..rtb_addon.blender.folders import recipe_folder, recipe_name
 from ..rtb_addon.errors import RecipeError
-from . import findings, montages
+from . import findings, montages, viewing
 
 
 class RTB_OT_show_montage(bpy.types.Operator):
@@ -16,12 +16,15 @@ class RTB_OT_show_montage(bpy.types.Operator):
 
     def execute(self, context):
         try:
-            image = montages.load(montage_file(context.scene))
+            file = montage_file(context.scene)
         except RecipeError as error:
             return findings.refuse(self, error)
+        # Here is the picture that the last batch left; that of the view comes when it is drawn.
+        image = montages.load(file, recipe_name(context.scene))
         if not bpy.app.background:
             area = montages.editor(context) or montages.split_viewport(context)
             montages.show(image, area)
+            viewing.show(recipe_folder(context.scene))
         return {"FINISHED"}
 
 

@@ -4,7 +4,7 @@ import bpy
 from bpy.utils import register_classes_factory
 
 from ..rtb_addon.blender import curve_previews
-from . import menus, progress, spectrum_menus
+from . import image_editor, menus, progress, spectrum_menus
 from .condition_menus import RTB_MT_conditions, RTB_MT_designs, RTB_MT_variable
 from .conditions import RTB_PT_conditions, RTB_UL_conditions
 from .mappings import RTB_PT_mappings
@@ -43,10 +43,12 @@ def register() -> None:
     menus.register()
     spectrum_menus.register()
     progress.register()
+    image_editor.register()
 
 
 def unregister() -> None:
     """Take them back."""
+    image_editor.unregister()
     progress.unregister()
     spectrum_menus.unregister()
     menus.unregister()

@@ -27,6 +27,12 @@ class Region(NamedTuple):
     width: int = 1
     height: int = 1
 
+    @classmethod
+    def between(cls, one: tuple[int, int], other: tuple[int, int]) -> Region:
+        """Return the rectangle that has two pixels (column, row) in opposite corners."""
+        (left, right), (top, bottom) = sorted((one[0], other[0])), sorted((one[1], other[1]))
+        return cls(left, top, right - left + 1, bottom - top + 1)
+
     @property
     def pixels(self) -> int:
         """How many it holds."""

@@ -61,6 +61,7 @@ class Viewer:
     def answer(self, request: Mapping[str, Any]) -> dict[str, Any]:
         """Return the answer to a request; one that cannot be met gets a sentence."""
         verbs: Mapping[str, Callable[..., dict]] = {
+            "wake": self.wake,
             "look": self.look,
             "probe": self.probe,
             "develop": self.develop,
@@ -71,6 +72,15 @@ class Viewer:
             return {"verb": verb, **verbs[verb](**words)}
         except (RecipeError, RenderingError) as error:
             return {"verb": verb, "sentence": str(error)}
+
+    def wake(self) -> dict[str, Any]:
+        """Import what takes a moment, before it is needed."""
+        import OpenEXR  # noqa: F401
+        from PIL import Image  # noqa: F401
+
+        from . import montage, recipe  # noqa: F401
+
+        return {}
 
     def look(self, **words: Any) -> dict[str, Any]:
         """Draw a picture into a file and return what is where in it."""
@@ -93,6 +103,9 @@ class Viewer:
         tiles = Tiles.of(names, (width, height), options, by)
         return {
             "file": look.output,
+            "folder": look.folder,
+            "name": recipe.name,
+            "renderer": files[0].parent.name,
             "tiles": tiles.to_words(),
             "full": full,
             "view": dataclasses.asdict(view),

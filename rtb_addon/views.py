@@ -138,6 +138,12 @@ class Tiles:
         across, down = x - column * width, y - row * height
         return self.names[number], int(across * self.reduced), int(down * self.reduced)
 
+    def within(self, name: str, x: float, y: float) -> tuple[int, int]:
+        """Return the column and the row of the pixel of a condition that is nearest to a place."""
+        left, top = self.corner(name)
+        across, down = int((x - left) * self.reduced), int((y - top) * self.reduced)
+        return min(max(across, 0), self.width - 1), min(max(down, 0), self.height - 1)
+
 
 def reduced(seen: FloatArray, by: int) -> FloatArray:
     """Return a (height, width, channels) picture with the means of so many pixels across and down."""

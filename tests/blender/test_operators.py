@@ -66,7 +66,7 @@ def test_render_recipe_renders_every_condition_to_its_end_where_there_is_no_wind
     assert bpy.ops.rtb.render_recipe() == {"FINISHED"}
     folder = tmp_path / "rtb/cube"
     assert sorted(path.stem for path in folder.glob("renderings/tracer/*.exr")) == ["blue", "green"]
-    montage = bpy.data.images["cube.png"]
+    montage = bpy.data.images["cube"]
     assert Path(bpy.path.abspath(montage.filepath)) == folder / "images/tracer/cube.png"
     assert tuple(montage.size) == (2 * 24, 16)
 
@@ -84,8 +84,8 @@ def test_show_montage_loads_the_picture_as_it_is_now(scene):
     scene.rtb.width = 30
     bpy.ops.rtb.render_recipe()
     assert bpy.ops.rtb.show_montage() == {"FINISHED"}
-    assert tuple(bpy.data.images["cube.png"].size) == (2 * 30, 16)
-    assert [image.name for image in bpy.data.images if image.get("rtb_montage")] == ["cube.png"]
+    assert tuple(bpy.data.images["cube"].size) == (2 * 30, 16)
+    assert [image.name for image in bpy.data.images if image.get("rtb_montage")] == ["cube"]
 
 
 def test_show_montage_says_that_there_is_none_yet(scene):

@@ -44,11 +44,28 @@ class Driver:
     def region(self, area_kind: str, kind: str):
         return next(region for region in self.area(area_kind).regions if region.type == kind)
 
-    def click(self, x: float, y: float):
-        """Move there and click, as a person does."""
+    def move(self, x: float, y: float):
+        """Move the pointer to a place in the window."""
         for _ in range(2):
             self.window.event_simulate(type="MOUSEMOVE", value="NOTHING", x=int(x), y=int(y))
             yield 0.05
+
+    def drag(self, begin: tuple[float, float], end: tuple[float, float], shift: bool = False):
+        """Press the left button at a place in the window and let it go at another one."""
+        yield from self.move(*begin)
+        where = {"x": int(begin[0]), "y": int(begin[1]), "shift": shift}
+        self.window.event_simulate(type="LEFTMOUSE", value="PRESS", **where)
+        yield 0.05
+        for share in (0.3, 0.7, 1.0):
+            x, y = (int(a + share * (b - a)) for a, b in zip(begin, end, strict=True))
+            self.window.event_simulate(type="MOUSEMOVE", value="NOTHING", x=x, y=y, shift=shift)
+            yield 0.05
+        self.window.event_simulate(type="LEFTMOUSE", value="RELEASE", x=x, y=y, shift=shift)
+        yield 0.05
+
+    def click(self, x: float, y: float):
+        """Move there and click, as a person does."""
+        yield from self.move(x, y)
         for value in ("PRESS", "RELEASE"):
             self.window.event_simulate(type="LEFTMOUSE", value=value, x=int(x), y=int(y))
             yield 0.05

@@ -45,22 +45,22 @@ def test_a_click_renders_in_another_process_and_shows_the_montage(report):
     assert report["child"]
     assert report["errors after rendering"] == []
     name, size = report["montage"]
-    assert name.endswith(".png")
+    assert name == "cube"
     assert size == [3 * 80, 2 * 60]
 
 
 def test_show_montage_opens_an_image_editor_where_there_is_none(report):
     none_before, name = report["montage beside"]
     assert none_before
-    assert name == "cube.png"
+    assert name == "cube"
 
 
 def test_blender_stays_usable_while_a_batch_renders(report):
     assert report["longest of ours"]["take"] < 0.05
     assert report["longest of ours"]["draw"] < 0.05
-    # How long Blender itself takes to draw in software, beside renderers that take every core, is the
-    # machine's affair; that its main loop comes round all the while is ours.
-    assert report["rendering"]["beats"] >= 10
+    # How long Blender itself takes to draw in software is the machine's affair. Beside renderers that take
+    # every core it takes longer, but its main loop comes round as often as it draws.
+    assert report["rendering"]["longest"] < 5 * report["drawing"]["longest"]
 
 
 def test_blenders_own_process_stays_free_of_what_renderers_need(report):

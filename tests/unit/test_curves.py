@@ -5,7 +5,7 @@ import pytest
 
 from rtb_addon.curves import RANGE, curve_picture, nice_above
 from rtb_addon.digits import HEIGHT, WIDTH, letters
-from rtb_addon.spectra import Bands, Spectrum
+from rtb_addon.spectra import Spectrum
 from rtb_addon.spectra.library import find
 from rtb_addon.spectra.sources import blackbody
 from rtb_addon.swatches import light_colour, surface_colour

@@ -1,0 +1,156 @@
+"""
+What the Image Editor shows of the renderings: asked of a child, shown when it is there.
+
+It lives here and not in Blender's data, so that undo and saving do not touch it.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Mapping
+from pathlib import Path
+from typing import TYPE_CHECKING, Any
+
+import bpy
+
+from ..rtb_addon.blender.folders import recipe_folder
+from ..rtb_addon.blender.redrawing import redraw_panels
+from ..rtb_addon.errors import RecipeError
+from . import montages
+
+if TYPE_CHECKING:
+    from ..rtb_addon.views import Tiles
+    from .viewer_child import ViewerChild
+
+INTERVAL = 0.02  # [s] between two looks at what the child has answered
+FILE = "images/view.tif"
+
+seen: Mapping[str, Any] = {}  # what the picture shows, as the viewer answered; empty while there is none
+sentence = ""  # why the last wish could not be met
+_child: ViewerChild | None = None
+_opening = False
+_followed: tuple[Path, int] | None = None
+
+
+def show(folder: Path, open_editor: bool = False) -> None:
+    """
+    Show the renderings of a recipe as the view says, as soon as the picture is there.
+
+    Parameters
+    ----------
+    open_editor : put the picture into an Image Editor, opening one if need be; else only its pixels change
+    """
+    global _opening
+    _opening = _opening or open_editor
+    view = bpy.context.window_manager.rtb_view
+    request = {"verb": "look", "folder": str(folder), "output": str(folder / FILE), **view.request()}
+    ask("look", request, _arrived)
+
+
+def follow(batch) -> None:
+    """Show what a batch has finished since last time; its first rendering opens an Image Editor."""
+    global _followed
+    if _child is None:
+        ask("wake", {"verb": "wake"}, lambda answer: None)  # so that the first picture comes at once
+    if batch.finished and (before := _followed) != (batch.folder, batch.finished):
+        _followed = batch.folder, batch.finished
+        show(batch.folder, open_editor=before is None)
+
+
+def followed_to_the_end() -> None:
+    """The next batch is another one."""
+    global _followed
+    _followed = None
+
+
+def refresh(scene) -> None:
+    """Show a scene's renderings anew where they are shown already."""
+    if seen or sentence:
+        try:
+            show(recipe_folder(scene))
+        except RecipeError as error:
+            _complain(str(error))
+
+
+def ask(kind: str, request: dict[str, Any], then: Callable[[Mapping[str, Any]], None]) -> None:
+    """Ask the viewer, starting it if need be; without a window wait for its answer."""
+    from .viewer_child import ViewerChild  # brings subprocess and more, which enabling need not wait for
+
+    global _child
+    if _child is None or _child.ended:
+        _child = ViewerChild()
+    _child.ask(kind, request, then)
+    if bpy.app.background:
+        _child.wait()
+    elif not bpy.app.timers.is_registered(_take):
+        bpy.app.timers.register(_take, first_interval=INTERVAL, persistent=True)
+
+
+def wait() -> None:
+    """Wait for what was asked, for a script that goes on with the answer."""
+    if _child is not None:
+        _child.wait()
+
+
+def tiles() -> Tiles:
+    """Return what lies where in the picture; there must be one."""
+    from ..rtb_addon.views import Tiles
+
+    return Tiles.from_words(seen["tiles"])
+
+
+def forget() -> None:
+    """End the viewer and forget what it showed."""
+    global seen, sentence, _child, _opening, _followed
+    seen, sentence, _opening, _followed = {}, "", False, None
+    if _child is not None:
+        _child.stop()
+        _child = None
+    if bpy.app.timers.is_registered(_take):
+        bpy.app.timers.unregister(_take)
+
+
+def _take() -> float | None:
+    """Take in what the child has answered; Blender calls this and goes on."""
+    if _child is None:
+        return None
+    _child.take()
+    return INTERVAL if _child.busy else None
+
+
+def _arrived(answer: Mapping[str, Any]) -> None:
+    """Show a picture that has come, or keep in mind why there is none."""
+    global seen, sentence, _opening
+    if "sentence" in answer:
+        _complain(answer["sentence"])
+        return
+    seen, sentence = answer, ""
+    image = montages.load(Path(answer["file"]), answer["name"])
+    if _opening and not bpy.app.background:
+        area = montages.editor(bpy.context) or montages.split_viewport(bpy.context)
+        if area is not None:
+            montages.show(image, area)
+    _opening = False
+    redraw_panels()
+    montages.redraw(image)
+
+
+def _complain(words: str) -> None:
+    global sentence
+    sentence = words
+    redraw_panels()
+
+
+@bpy.app.handlers.persistent
+def _before_loading(*_) -> None:
+    forget()
+
+
+def register() -> None:
+    """Watch for another file being opened."""
+    bpy.app.handlers.load_pre.append(_before_loading)
+
+
+def unregister() -> None:
+    """Leave no child and no timer behind."""
+    forget()
+    bpy.app.handlers.load_pre.remove(_before_loading)
