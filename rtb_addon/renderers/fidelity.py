@@ -26,6 +26,8 @@ ABSENT = Fidelity("absent")
 _UP_TO_THREE = Fidelity("exact", "of at most three different spectra in all")
 
 _BY_TENTHS = Fidelity("exact", "up to what varies within a tenth of a band")
+# What a glass's maker writes beside its name.
+_AT_SODIUM = Fidelity("approximate", "light of all wavelengths bends as that of 589.3 nm does")
 
 # feature ("material matte", "light spot", "camera perspective" ...) -> renderer -> fidelity
 TABLE: Mapping[str, Mapping[str, Fidelity]] = {
@@ -38,8 +40,11 @@ TABLE: Mapping[str, Mapping[str, Fidelity]] = {
     "material mirror": {"mitsuba": EXACT, "tracer": EXACT},
     "material plastic": {"mitsuba": EXACT, "tracer": EXACT},
     "material roughplastic": {"mitsuba": EXACT, "tracer": EXACT},
+    "material principled": {"mitsuba": EXACT},
     "material blend": {"mitsuba": _UP_TO_THREE, "tracer": EXACT},
     "material mask": {"mitsuba": EXACT, "tracer": EXACT},
+    "material bumpmap": {"mitsuba": EXACT, "tracer": EXACT},
+    "material normalmap": {"mitsuba": EXACT, "tracer": EXACT},
     "light point": {"mitsuba": EXACT, "tracer": EXACT, "sphere": EXACT},
     "light spot": {"mitsuba": EXACT, "tracer": EXACT},
     "light directional": {"mitsuba": EXACT, "tracer": EXACT},
@@ -60,8 +65,8 @@ TABLE: Mapping[str, Mapping[str, Fidelity]] = {
     "filter catmullrom": {"mitsuba": EXACT, "tracer": EXACT},
     "filter lanczos": {"mitsuba": EXACT, "tracer": EXACT},
     "distribution beckmann": {"mitsuba": EXACT, "tracer": EXACT},
-    "distribution ggx": {"tracer": EXACT},
-    "index spectrum": {"tracer": EXACT},
+    "distribution ggx": {"mitsuba": EXACT, "tracer": EXACT},
+    "index spectrum": {"mitsuba": _AT_SODIUM, "tracer": EXACT},
     "bands averaged": {"mitsuba": EXACT, "tracer": EXACT, "sphere": EXACT},
     "bands centre": {"mitsuba": EXACT, "tracer": EXACT, "sphere": EXACT},
     "bands mean": {"mitsuba": _BY_TENTHS, "tracer": _BY_TENTHS},

@@ -66,15 +66,30 @@ def read_picture(path: Path, gamma: float = 1.0) -> Picture:
     ----------
     gamma : stored numbers are raised to it: 1 takes them as they are, -1 undoes the curve of sRGB
     """
-    if path.suffix.lower() == ".exr":
-        found = _read_exr(path)
-        return _coloured(_linear(found, gamma)) if isinstance(found, np.ndarray) else found
-    return _coloured(_linear(_read_common(path), gamma))
+    found = _read(path, gamma)
+    return found if isinstance(found, Picture) else _coloured(found)
+
+
+def read_relief(path: Path, gamma: float = 1.0) -> FloatArray:
+    """
+    Read a picture of heights or of normals: the (height, width, channels) numbers as they are, 3 of colours.
+
+    Heights are the means of the channels; normals have three, each the double of a number less one.
+    """
+    found = _read(path, gamma)
+    return found.texels if isinstance(found, Picture) else found
 
 
 def sky_gamma(path: Path) -> float:
     """Return the gamma of a picture of the sky: files for screens hold sRGB's curve, others light itself."""
     return 1.0 if path.suffix.lower() == ".exr" else -1.0
+
+
+def _read(path: Path, gamma: float) -> Picture | FloatArray:
+    if path.suffix.lower() != ".exr":
+        return _linear(_read_common(path), gamma)
+    found = _read_exr(path)
+    return _linear(found, gamma) if isinstance(found, np.ndarray) else found
 
 
 def _read_exr(path: Path) -> Picture | FloatArray:

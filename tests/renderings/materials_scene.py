@@ -40,6 +40,13 @@ MATERIALS = {
     "blend": {"materialID": "matte", "otherMaterialID": "roughplastic", "weight": 0.3},
     "mask": {"materialID": "plastic", "opacity": 0.6},
 }
+# What came later.
+MORE = {
+    "principled": {"baseColor": RED, "metallic": 0.4, "roughness": 0.5, "specular": 0.6},
+    "metal ggx": {**MATERIALS["metal"], "distribution": "ggx"},
+    "roughplastic ggx": {**MATERIALS["roughplastic"], "distribution": "ggx"},
+    "roughglass ggx": {**MATERIALS["roughglass"], "distribution": "ggx"},
+}
 LAMPS = ("point", "area", "environment")
 
 
@@ -47,7 +54,7 @@ def row(light="environment", names=tuple(MATERIALS), materials=None, **integrato
     """
     Return the balls of some materials side by side, 8 x 8 pixels each, under a kind of lamp.
 
-    The order of names is that of the picture.
+    The order of names is that of the picture; the first word of a name is the model.
     """
     materials = MATERIALS if materials is None else materials
     balls = [Shape(name, globe(0.42), at(k + 0.5, 0.5, 0.5), name) for k, name in enumerate(names)]
@@ -55,7 +62,7 @@ def row(light="environment", names=tuple(MATERIALS), materials=None, **integrato
     panel = Shape("panel", square(1.5), at(len(names) / 2, -2, 4, FULL_TURN), "soot", INTENSITY)
     sky = lamp("environment", filename="", intensity=INTENSITY)
     point = lamp("point", at(len(names) / 2, -2, 4), INTENSITY.scaled(20), radius=0.0)
-    declared = {name: Material(name, name, parameters) for name, parameters in materials.items()}
+    declared = {name: Material(name, name.split()[0], parameters) for name, parameters in materials.items()}
     for name, spectrum in (("floor", PALE), ("soot", Spectrum.constant(0.0))):
         declared[name] = Material(name, "matte", {"diffuseReflectance": spectrum})
     return RenderScene(

@@ -207,7 +207,7 @@ def test_a_texture_on_a_mesh_without_coordinates_is_refused(tmp_path, coloured):
     ("change", "words"),
     [
         ({"wrapMode": "zero"}, "wrapMode zero, give one of"),
-        ({"filterMode": "cubic"}, "filterMode cubic and"),
+        ({"filterMode": "cubic"}, "filterMode cubic, give one of"),
         ({"scaleU": np.inf}, "has inf as its scaleU"),
     ],
 )

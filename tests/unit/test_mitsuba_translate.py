@@ -252,7 +252,7 @@ WRONG |= {
     "paint is made of itself": lambda: painted("mask", materialID="paint", opacity=0.5),
     "material paint wants material oak": lambda: painted("mask", materialID="oak", opacity=0.5),
     "has 1.5 as its opacity": lambda: painted("mask", materialID="soot", opacity=1.5),
-    "paint is made of 4 spectra, Mitsuba renders 1 to 3": four_spectra,
+    "paint is made of 4 spectra, give it 1 to 3": four_spectra,
     "no measured yet": lambda: painted("measured", filename="x"),
     "has -0.1 as its roughness": lambda: painted("metal", eta=GREY, k=GREY, roughness=-0.1),
     "paint needs a spectrum as its eta": lambda: painted("metal", eta=TextureUse("x"), k=GREY, roughness=0.1),

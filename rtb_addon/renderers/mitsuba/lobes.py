@@ -8,12 +8,16 @@ linear. Spectra that are the same share a lobe.
 What a metal reflects is not linear in its index of refraction, but Fresnel's law needs nothing but that index
 and the angle between two directions: a lobe of a metal has the coefficient of a perfect conductor, which
 reflects everything, and the lobe path multiplies it by what each band's index reflects at that angle.
+
+The principled material is linear but for a part that no spectrum multiplies, its clear reflection. All three
+components hold that part, so one is kept free of spectra: what the others have beyond it are their lobes, and
+it is a lobe of its own, a white one.
 """
 
 from __future__ import annotations
 
 import copy
-from collections.abc import Iterator, Mapping
+from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from pathlib import Path
 from xml.etree import ElementTree as Xml
@@ -35,10 +39,20 @@ _LINEAR: Mapping[str, Mapping[str, float]] = {
     "dielectric": {"specular_reflectance": 1.0, "specular_transmittance": 1.0},
     "thindielectric": {"specular_reflectance": 1.0, "specular_transmittance": 1.0},
     "roughdielectric": {"specular_reflectance": 1.0, "specular_transmittance": 1.0},
+    "principled": {"base_color": 0.5},
     "twosided": {},
+    "bumpmap": {},
+    "normalmap": {},
     "blendbsdf": {},
     "mask": {},
 }
+
+# What makes the principled material more than linear, by the square root or the luminance of its colour.
+_TINTS = ("spec_tint", "sheen_tint", "spec_trans")
+
+
+class BeyondLobes(RenderingError):
+    """A material is more than three lobes can carry."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -71,11 +85,16 @@ class Lobe:
     reflectance : the spectrum
     index : eta and k of a metal, or None
     picture : what multiplies the spectrum, or None
+    constant : whether this is the part that no spectrum multiplies, the last component
     """
 
     reflectance: Spectrum
     index: tuple[Spectrum, Spectrum] | None = None
     picture: PictureUse | None = None
+    constant: bool = False
+
+
+_CONSTANT = Lobe(Spectrum.constant(1.0), constant=True)
 
 
 def take_lobes(root: Xml.Element) -> dict[str, list[Lobe]]:
@@ -115,15 +134,21 @@ def _take(id: str, material: Xml.Element) -> list[Lobe]:
         if key not in found:
             found[key] = _lobe(child, metals.get(parent, ()))
         places.append((parent, index, child.get("name", ""), key))
-    if not 1 <= len(found) <= MOST_LOBES:
-        raise RenderingError(
-            f"{id} is made of {len(found)} spectra, Mitsuba renders 1 to {MOST_LOBES}, the tracer any number"
-        )
+    constant = [_CONSTANT] if any(each.get("type") == "principled" for each in material.iter("bsdf")) else []
+    if not 1 <= len(found) + len(constant) <= MOST_LOBES:
+        raise BeyondLobes(f"{id} is made of {len(found)} spectra, give it 1 to {MOST_LOBES - len(constant)}")
     # Metals come first, so that few lobes have to be asked for their index.
     order = sorted(found, key=lambda key: found[key].index is None)
     for parent, index, name, key in places:
         parent[index] = one_hot_colour(name, order.index(key))
-    return [found[key] for key in order]
+    return [*(found[key] for key in order), *constant]
+
+
+def in_slots(lobes: Sequence[Lobe], count: int) -> list[Lobe | None]:
+    """Return the lobes of a material by component of its colours, of which so many are looked at."""
+    spectral = [lobe for lobe in lobes if not lobe.constant]
+    constant = lobes[len(spectral) :]
+    return [*spectral, *[None] * (count - len(lobes)), *constant]
 
 
 def _lobe(node: Xml.Element, index: tuple[Xml.Element, ...]) -> Lobe:
@@ -145,12 +170,19 @@ def picture_use(node: Xml.Element) -> PictureUse:
 def _complete(id: str, node: Xml.Element) -> None:
     """Refuse what is not linear, and write out the spectra that Mitsuba would fill in as white or grey."""
     kind = node.get("type", "")
+    tinted = [child.get("name") for child in node if child.get("name") in _TINTS and _is_given(child)]
+    if kind == "principled" and tinted:
+        raise BeyondLobes(f"the native scene's {id} has {tinted[0]}, leave it at 0")
     if kind not in _LINEAR:
-        raise RenderingError(f"the native scene's {id} is a {kind}, make it one of {', '.join(_LINEAR)}")
+        raise BeyondLobes(f"the native scene's {id} is a {kind}, make it one of {', '.join(_LINEAR)}")
     there = {child.get("name") for child in node}
     for name, value in _LINEAR[kind].items():
         if name not in there:
             node.append(element("spectrum", "uniform", name=name, value=value))
+
+
+def _is_given(child: Xml.Element) -> bool:
+    return child.tag != "float" or float(child.get("value", 0)) != 0
 
 
 def _take_index(id: str, node: Xml.Element) -> tuple[Xml.Element, ...]:
@@ -158,7 +190,7 @@ def _take_index(id: str, node: Xml.Element) -> tuple[Xml.Element, ...]:
     found = {child.get("name"): child for child in node if child.get("name") in ("eta", "k", "material")}
     if "conductor" not in node.get("type", "") or "material" in found:
         if "material" in found and found["material"].get("value") != "none":
-            raise RenderingError(f"the native scene's {id} names its metal, write eta and k as spectra")
+            raise BeyondLobes(f"the native scene's {id} names its metal, write eta and k as spectra")
         return ()
     try:
         taken = found["eta"], found["k"]

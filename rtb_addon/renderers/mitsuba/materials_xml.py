@@ -2,37 +2,25 @@
 
 from __future__ import annotations
 
-import math
 from collections.abc import Iterator, Mapping
 from pathlib import Path
-from typing import Any, NamedTuple
 from xml.etree import ElementTree as Xml
 
 from ...errors import RecipeError
-from ...scene.render_scene import Material, RenderScene, Texture, TextureUse
-from ...spectra import Spectrum
+from ...scene.render_scene import Material, RenderScene, TextureUse
 from .names import Names
-from .spectrum_xml import comment, element, format_spectrum
-from .textures_xml import texture
-from .ward import VARIANTS
-
-
-class _Writer(NamedTuple):
-    """What it takes to write a material: names, the range of spectra, textures, and where the file goes."""
-
-    names: Names
-    span: tuple[float, float]
-    textures: Mapping[str, Texture]
-    folder: Path
-
+from .relief_xml import heights, normals
+from .spectrum_xml import comment, element, plugin_remark
+from .surfaces_xml import GLASSES, SURFACES, Writer, glass, number, texture_named
 
 # What other materials a material is made of, in the order in which Mitsuba wants them.
-_PARTS = {"blend": ("materialID", "otherMaterialID"), "mask": ("materialID",)}
-_WHITE = Spectrum.constant(1.0)
-_SMOOTH = "dielectric"
-_GLASSES = {"glass": _SMOOTH, "thinglass": "thindielectric", "roughglass": "roughdielectric"}
+_PARTS = {
+    "blend": ("materialID", "otherMaterialID"),
+    "mask": ("materialID",),
+    "bumpmap": ("materialID",),
+    "normalmap": ("materialID",),
+}
 _BLENDED = "{} is shown too dark by stock Mitsuba 3.9 where it blends a mirror with something that is none"
-_NEEDS = "{} needs a plugin of ours, rtb_addon.renderers.mitsuba.plugins registers it"
 _PLUGINS = ("ward", "picture")
 
 
@@ -40,7 +28,7 @@ def materials(scene: RenderScene, names: Names, span: tuple[float, float], folde
     """Return every material of a scene, each after those that it is made of; files are seen from a folder."""
     for id in scene.materials:
         names.of("material", id)
-    to = _Writer(names, span, scene.textures, folder)
+    to = Writer(names, span, scene.textures, folder)
     return [node for one in _in_order(scene.materials) for node in _material(one, to)]
 
 
@@ -50,8 +38,9 @@ def texture_of(material: str, scene: RenderScene) -> str:
     if one is None:
         return ""
     own = (value.texture for value in one.parameters.values() if isinstance(value, TextureUse))
+    relief = str(one.parameters.get("textureID", ""))
     parts = (texture_of(str(one.parameters[part]), scene) for part in _PARTS.get(one.model, ()))
-    return next((found for found in (*own, *parts) if found), "")
+    return next((found for found in (*own, relief, *parts) if found), "")
 
 
 def _in_order(declared: Mapping[str, Material]) -> Iterator[Material]:
@@ -71,16 +60,16 @@ def _in_order(declared: Mapping[str, Material]) -> Iterator[Material]:
         yield from visit(id, ())
 
 
-def _material(one: Material, to: _Writer) -> list[Xml.Element]:
+def _material(one: Material, to: Writer) -> list[Xml.Element]:
     place = to.names.known("material", one.id, "the scene")
     if one.model in _PARTS:
-        return _composed(one, place, to.names)
-    if one.model in _GLASSES:
-        glass = _glass(one, place, to)
-        return [*_remarks(place, glass), glass]
-    make = _SURFACES.get(one.model)
+        return _composed(one, place, to)
+    if one.model in GLASSES:
+        clear = glass(one, place, to)
+        return [*_remarks(place, clear), clear]
+    make = SURFACES.get(one.model)
     if make is None:
-        known = ", ".join([*_SURFACES, *_GLASSES, *_PARTS])
+        known = ", ".join([*SURFACES, *GLASSES, *_PARTS])
         raise RecipeError(f"Mitsuba renders no {one.model} yet, make material {one.id} one of {known}")
     inner = make(one, to)
     both = element("bsdf", "twosided", id=place)
@@ -90,108 +79,36 @@ def _material(one: Material, to: _Writer) -> list[Xml.Element]:
 
 def _remarks(place: str, node: Xml.Element) -> list[Xml.Element]:
     ours = any(each.get("type") in _PLUGINS for each in node.iter())
-    return [comment(_NEEDS.format(place))] if ours else []
+    return [plugin_remark(place)] if ours else []
 
 
-def _composed(one: Material, place: str, names: Names) -> list[Xml.Element]:
+def _composed(one: Material, place: str, to: Writer) -> list[Xml.Element]:
     """Return a material that is made of others."""
-    if one.model == "blend":
-        node = element("bsdf", "blendbsdf", id=place, weight=number(one, "weight", 0, 1))
-    else:
-        node = element("bsdf", "mask", id=place, opacity=number(one, "opacity", 0, 1))
+    node = _COMPOSED[one.model](one, place, to)
     for part in _PARTS[one.model]:
-        known = names.known("material", str(one.parameters[part]), f"material {one.id}")
+        known = to.names.known("material", str(one.parameters[part]), f"material {one.id}")
         node.append(Xml.Element("ref", id=known))
     return [comment(_BLENDED.format(place)), node] if one.model == "blend" else [node]
 
 
-def _matte(one: Material, to: _Writer) -> Xml.Element:
-    node = element("bsdf", "diffuse")
-    node.append(_colour(one, "diffuseReflectance", "reflectance", to))
+def _blend(one: Material, place: str, to: Writer) -> Xml.Element:
+    return element("bsdf", "blendbsdf", id=place, weight=number(one, "weight", 0, 1))
+
+
+def _mask(one: Material, place: str, to: Writer) -> Xml.Element:
+    return element("bsdf", "mask", id=place, opacity=number(one, "opacity", 0, 1))
+
+
+def _bumps(one: Material, place: str, to: Writer) -> Xml.Element:
+    node = element("bsdf", "bumpmap", id=place, scale=number(one, "scale", -1e6, 1e6))
+    node.append(heights(texture_named(one, str(one.parameters["textureID"]), to), to.folder))
     return node
 
 
-def _mirror(one: Material, to: _Writer) -> Xml.Element:
-    node = element("bsdf", "conductor", material="none")
-    node.append(_colour(one, "specularReflectance", "specular_reflectance", to))
+def _normals(one: Material, place: str, to: Writer) -> Xml.Element:
+    node = element("bsdf", "normalmap", id=place)
+    node.append(normals(texture_named(one, str(one.parameters["textureID"]), to), to.folder))
     return node
 
 
-def _metal(one: Material, to: _Writer) -> Xml.Element:
-    alpha = number(one, "roughness", 0, 10)
-    rough: dict[str, Any] = {"distribution": "beckmann", "alpha": alpha} if alpha else {}
-    node = element("bsdf", "roughconductor" if alpha else "conductor", **rough)
-    node.extend([_colour(one, name, name, to) for name in ("eta", "k")])
-    node.append(format_spectrum("specular_reflectance", _WHITE, to.span))
-    return node
-
-
-def _plastic(one: Material, to: _Writer) -> Xml.Element:
-    # A rough surface without roughness is a smooth one, which Mitsuba has another plugin for.
-    alpha = number(one, "roughness", 0, 10) if one.model == "roughplastic" else 0.0
-    rough: dict[str, Any] = {"distribution": "beckmann", "alpha": alpha} if alpha else {}
-    node = element("bsdf", "roughplastic" if alpha else "plastic", **_indices(one), nonlinear=False, **rough)
-    node.append(_colour(one, "diffuseReflectance", "diffuse_reflectance", to))
-    node.append(format_spectrum("specular_reflectance", _WHITE, to.span))
-    return node
-
-
-def _ward(one: Material, to: _Writer) -> Xml.Element:
-    variant = one.parameters["variant"]
-    if variant not in VARIANTS:
-        raise RecipeError(f"material {one.id} is of variant {variant}, want one of {', '.join(VARIANTS)}")
-    widths: dict[str, Any] = {f"alpha_{x.lower()}": number(one, f"alpha{x}", 1e-3, 10) for x in "UV"}
-    node = element("bsdf", "ward", variant=variant, **widths)
-    node.append(_colour(one, "diffuseReflectance", "diffuse_reflectance", to))
-    node.append(_colour(one, "specularReflectance", "specular_reflectance", to))
-    return node
-
-
-_SURFACES = {
-    "matte": _matte,
-    "anisoward": _ward,
-    "metal": _metal,
-    "mirror": _mirror,
-    "plastic": _plastic,
-    "roughplastic": _plastic,
-}
-
-
-def _glass(one: Material, place: str, to: _Writer) -> Xml.Element:
-    alpha = number(one, "roughness", 0, 10) if one.model == "roughglass" else 0.0
-    rough: dict[str, Any] = {"distribution": "beckmann", "alpha": alpha} if alpha else {}
-    kind = _SMOOTH if one.model == "roughglass" and not alpha else _GLASSES[one.model]
-    indices = _indices(one)
-    if alpha and indices["int_ior"] == indices["ext_ior"]:
-        raise RecipeError(f"material {one.id} has the same index inside and outside, give it two that differ")
-    node = element("bsdf", kind, id=place, **indices, **rough)
-    node.append(_colour(one, "specularReflectance", "specular_reflectance", to))
-    node.append(_colour(one, "specularTransmittance", "specular_transmittance", to))
-    return node
-
-
-def number(one: Material, name: str, low: float, high: float) -> float:
-    """Return a number of a material that must lie in a range."""
-    value = one.parameters[name]
-    if not isinstance(value, int | float) or not math.isfinite(value) or not low <= value <= high:
-        raise RecipeError(f"material {one.id} has {value} as its {name}, give a number from {low} to {high}")
-    return float(value)
-
-
-def _indices(one: Material) -> dict[str, Any]:
-    return {"int_ior": number(one, "intIOR", 0.1, 10), "ext_ior": number(one, "extIOR", 0.1, 10)}
-
-
-def _colour(one: Material, name: str, mitsubas: str, to: _Writer) -> Xml.Element:
-    value = one.parameters[name]
-    if isinstance(value, TextureUse) and name not in ("eta", "k"):
-        if value.texture not in to.textures:
-            raise RecipeError(
-                f"material {one.id} uses texture {value.texture}, which the scene does not have"
-            )
-        return texture(to.textures[value.texture], mitsubas, to.span, to.folder)
-    if not isinstance(value, Spectrum):
-        raise RecipeError(f"material {one.id} needs a spectrum as its {name}")
-    if value.values.min() < 0:
-        raise RecipeError(f"material {one.id} has a negative {name}, give 0 or more")
-    return format_spectrum(mitsubas, value, to.span)
+_COMPOSED = {"blend": _blend, "mask": _mask, "bumpmap": _bumps, "normalmap": _normals}

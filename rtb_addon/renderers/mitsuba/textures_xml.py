@@ -39,19 +39,16 @@ def _checkerboard(one: Texture, name: str, span: Span) -> Xml.Element:
     # Mitsuba's board has two checks in each direction from 0 to 1.
     place = Xml.SubElement(node, "transform", name="to_uv")
     Xml.SubElement(place, "scale", x=_half(one, "checksPerU"), y=_half(one, "checksPerV"), z="1.0")
-    Xml.SubElement(place, "translate", x=repr(_number(one, "offsetU")), y=repr(_number(one, "offsetV")))
+    Xml.SubElement(place, "translate", x=repr(finite(one, "offsetU")), y=repr(finite(one, "offsetV")))
     return node
 
 
 def _picture(one: Texture, name: str, folder: Path) -> Xml.Element:
-    filter, wrap = str(one.parameters["filterMode"]), str(one.parameters["wrapMode"])
-    if filter not in _FILTERS or wrap not in WRAPS:
-        raise RecipeError(
-            f"texture {one.id} has filterMode {filter} and wrapMode {wrap},"
-            f" give one of {', '.join(_FILTERS)} and one of {', '.join(WRAPS)}"
-        )
+    filter, wrap = str(one.parameters["filterMode"]), wrap_of(one)
+    if filter not in _FILTERS:
+        raise RecipeError(f"texture {one.id} has filterMode {filter}, give one of {', '.join(_FILTERS)}")
     file = Path(os.path.relpath(str(one.parameters["filename"]), folder)).as_posix()
-    numbers = {key: _number(one, key) for key in ("gamma", "scaleU", "scaleV", "offsetU", "offsetV")}
+    numbers = {key: finite(one, key) for key in ("gamma", "scaleU", "scaleV", "offsetU", "offsetV")}
     return element(
         "texture",
         "picture",
@@ -67,11 +64,20 @@ def _picture(one: Texture, name: str, folder: Path) -> Xml.Element:
     )
 
 
+def wrap_of(one: Texture) -> str:
+    """Return what lies beyond a picture's edges, in Mitsuba's words, which are ours."""
+    wrap = str(one.parameters["wrapMode"])
+    if wrap not in WRAPS:
+        raise RecipeError(f"texture {one.id} has wrapMode {wrap}, give one of {', '.join(WRAPS)}")
+    return wrap
+
+
 def _half(one: Texture, name: str) -> str:
-    return repr(_number(one, name) / 2)
+    return repr(finite(one, name) / 2)
 
 
-def _number(one: Texture, name: str) -> float:
+def finite(one: Texture, name: str) -> float:
+    """Return a number of a texture."""
     value = one.parameters[name]
     if not isinstance(value, int | float) or not math.isfinite(value):
         raise RecipeError(f"texture {one.id} has {value} as its {name}, give a number")

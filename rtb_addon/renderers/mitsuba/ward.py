@@ -14,7 +14,7 @@ from __future__ import annotations
 from types import ModuleType
 from typing import Any
 
-VARIANTS = ("ward", "ward-duer", "balanced")
+from ...scene.vocabulary import WARD_VARIANTS
 
 
 def ward_plugin(mi: ModuleType) -> Any:
@@ -29,8 +29,10 @@ def ward_plugin(mi: ModuleType) -> Any:
         def __init__(self, props):
             mi.BSDF.__init__(self, props)
             self.variant = props.get("variant", "ward")
-            if self.variant not in VARIANTS:
-                raise ValueError(f"ward has no variant {self.variant}, want one of {', '.join(VARIANTS)}")
+            if self.variant not in WARD_VARIANTS:
+                raise ValueError(
+                    f"ward has no variant {self.variant}, want one of {', '.join(WARD_VARIANTS)}"
+                )
             self.au = dr.opaque(mi.Float, props.get("alpha_u", 0.1))
             self.av = dr.opaque(mi.Float, props.get("alpha_v", 0.1))
             self.diffuse, self.specular = props["diffuse_reflectance"], props["specular_reflectance"]
