@@ -2,11 +2,12 @@
 
 from bpy.utils import register_classes_factory
 
-from . import call_tooltips, image_editor, running, watching
+from . import call_tooltips, command, image_editor, running, watching
 from .add_condition import RTB_OT_add_condition
 from .add_variable import RTB_OT_add_variable
 from .cancel_rendering import RTB_OT_cancel_rendering
 from .check_recipe import RTB_OT_check_recipe
+from .compare_renderers import RTB_OT_compare_renderers
 from .copy_conditions import RTB_OT_copy_conditions
 from .duplicate_condition import RTB_OT_duplicate_condition
 from .duplicate_variable import RTB_OT_duplicate_variable
@@ -48,8 +49,10 @@ from .use_colour import RTB_OT_use_colour
 from .use_daylight import RTB_OT_use_daylight
 from .use_flat_spectrum import RTB_OT_use_flat_spectrum
 from .use_library_spectrum import RTB_OT_use_library_spectrum
+from .use_metal import RTB_OT_use_metal
 from .use_spectra import RTB_OT_use_spectra
 from .use_spectrum_file import RTB_OT_use_spectrum_file
+from .use_table import RTB_OT_use_table, RTB_PG_sample
 from .use_variable import RTB_OT_use_variable
 from .vary_in_recipe import RTB_OT_vary_in_recipe
 from .vary_property import RTB_OT_vary_property
@@ -67,6 +70,9 @@ CLASSES = (
     RTB_OT_use_daylight,
     RTB_OT_use_blackbody,
     RTB_OT_use_colour,
+    RTB_OT_use_metal,
+    RTB_PG_sample,
+    RTB_OT_use_table,
     RTB_OT_use_variable,
     RTB_OT_vary_in_recipe,
     RTB_OT_add_condition,
@@ -90,6 +96,7 @@ CLASSES = (
     RTB_OT_select_variable,
     RTB_OT_turn_page,
     RTB_OT_check_recipe,
+    RTB_OT_compare_renderers,
     RTB_OT_edit_mapping,
     RTB_OT_edit_mapping_line,
     RTB_OT_edit_mappings_text,
@@ -118,10 +125,12 @@ def register() -> None:
     image_editor.register()
     running.register()
     watching.register()
+    command.register()
 
 
 def unregister() -> None:
     """Stop what is rendering and take the operators back."""
+    command.unregister()
     watching.unregister()
     running.unregister()
     image_editor.unregister()

@@ -2,8 +2,8 @@
 
 import bpy
 
+from ..rtb_addon.blender.principled import in_words
 from .spectrum_verbs import AskingVerb
-from .use_spectra import in_words
 
 
 class RTB_OT_use_colour(AskingVerb, bpy.types.Operator):

@@ -3,7 +3,7 @@
 import bpy
 from bpy.utils import register_classes_factory
 
-from ..rtb_addon.blender import curve_previews
+from ..rtb_addon.blender import curve_previews, light_words
 from . import image_editor, menus, progress, spectrum_menus
 from .condition_menus import RTB_MT_conditions, RTB_MT_designs, RTB_MT_variable
 from .conditions import RTB_PT_conditions, RTB_UL_conditions
@@ -19,7 +19,7 @@ _register, _unregister = register_classes_factory(
         RTB_PT_recipe,
         RTB_PT_light_paths,
         RTB_PT_montage,
-        *spectrum_menus.MENUS.values(),
+        spectrum_menus.RTB_MT_spectrum,
         RTB_UL_conditions,
         RTB_MT_designs,
         RTB_MT_variable,
@@ -53,5 +53,6 @@ def unregister() -> None:
     spectrum_menus.unregister()
     menus.unregister()
     curve_previews.unregister()
+    light_words.unregister()
     del bpy.types.WindowManager.rtb_first_variable
     _unregister()

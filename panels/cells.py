@@ -3,7 +3,7 @@
 import bpy
 
 from ..rtb_addon.blender.table_properties import numbers_of
-from .spectrum_menus import RTB_MT_cell
+from .spectrum_menus import draw_menu
 
 # The view of a cell's text that a type has, and how many numbers that takes.
 _VIEWS = {"NUMBER": ("number", 1), "COLOUR": ("colour", 3)}
@@ -27,4 +27,4 @@ def draw_wide_cell(layout, cell, kind: str) -> None:
     line = layout.row(align=True)
     draw_cell(line, cell, kind, emboss=True)
     if kind in ("SPECTRUM", "TEXT"):
-        line.menu(RTB_MT_cell.bl_idname, text="", icon="DOWNARROW_HLT")
+        draw_menu(line, "CELL")

@@ -1,13 +1,15 @@
-"""Properties > Data of a lamp: the spectrum of its light. How much of it stays in Blender's own panel."""
+"""Properties > Data of a lamp: the spectrum of its light, and how much of it."""
 
 import bpy
 
+from ..rtb_addon.blender import light_words
+from .sentences import draw_sentences
 from .spectra import SpectralPanel
 from .spectrum_field import draw_spectrum
 
 
 class RTB_PT_spectral_light(SpectralPanel, bpy.types.Panel):
-    """The spectrum of the active lamp"""
+    """The spectrum of the active lamp, and how much light it sends out"""
 
     bl_idname = "RTB_PT_spectral_light"
     bl_label = "Spectral Light"
@@ -16,3 +18,20 @@ class RTB_PT_spectral_light(SpectralPanel, bpy.types.Panel):
 
     def draw_spectra(self, layout, context, settings):
         draw_spectrum(layout, context, settings, "LIGHT")
+        layout.prop(settings, "measure")
+        if settings.measure == "WATTS":
+            layout.prop(context.light, "energy")
+        else:
+            layout.prop(settings, "amount")
+        if settings.measure == "LUX" and context.light.type != "SUN":
+            layout.prop(settings, "distance")
+        draw_told(layout, context, light_words.told(context.light, context.scene))
+
+
+def draw_told(layout, context, found) -> None:
+    """Draw what is known of a light, or why there is none."""
+    draw_sentences(layout, [found.sentence] if found.sentence else [], context.region.width, alert=True)
+    column = layout.column(align=True)
+    column.active = False
+    for line in found.lines:
+        column.label(text=line)

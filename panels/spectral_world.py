@@ -2,8 +2,15 @@
 
 import bpy
 
+from .sentences import draw_sentences
 from .spectra import SpectralPanel
+from .spectral_material import draw_image
 from .spectrum_field import draw_spectrum
+
+PICTURES = (
+    "an RGB image becomes spectra by three smooth basis colours, an EXR file of bands is taken as it is; "
+    "both are multiplied by the spectrum"
+)
 
 
 class RTB_PT_spectral_world(SpectralPanel, bpy.types.Panel):
@@ -15,5 +22,12 @@ class RTB_PT_spectral_world(SpectralPanel, bpy.types.Panel):
     thing = "world"
 
     def draw_spectra(self, layout, context, settings):
+        layout.prop(settings, "kind")
+        if settings.kind == "IMAGE":
+            draw_image(layout, settings, "image")
+            layout.prop(settings, "rotation")
+            draw_sentences(layout, [PICTURES], context.region.width)
         draw_spectrum(layout, context, settings, "WORLD")
+        if settings.kind == "CONSTANT":
+            layout.prop(settings, "measure")
         layout.prop(settings, "amount")

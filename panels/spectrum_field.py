@@ -3,7 +3,7 @@
 from ..rtb_addon.blender import curve_previews
 from ..rtb_addon.blender.fields import FIELDS, typed_in
 from .sentences import draw_sentences
-from .spectrum_menus import MENUS
+from .spectrum_menus import draw_menu
 
 UNIT = 20  # of Blender's layouts [pixels at scale 1]
 BESIDE = 25  # what the borders of a region take [pixels at scale 1]
@@ -16,7 +16,7 @@ def draw_spectrum(layout, context, group, field: str, text: str | None = None) -
     name = FIELDS[field].name
     row = layout.row(align=True)
     row.prop(group, name, **({} if text is None else {"text": text}))
-    row.menu(MENUS[field].bl_idname, text="", icon="DOWNARROW_HLT")
+    draw_menu(row, field)
     draw_curve(layout, context, typed_in(group, name, context.scene.rtb), FIELDS[field].shines)
 
 

@@ -8,80 +8,52 @@ from ..operators.use_daylight import RTB_OT_use_daylight
 from ..operators.use_flat_spectrum import RTB_OT_use_flat_spectrum
 from ..operators.use_library_spectrum import RTB_OT_use_library_spectrum
 from ..operators.use_spectrum_file import RTB_OT_use_spectrum_file
+from ..operators.use_table import RTB_OT_use_table
 from ..operators.use_variable import RTB_OT_use_variable
 from ..operators.vary_in_recipe import RTB_OT_vary_in_recipe
-from ..rtb_addon.blender.fields import field_of
+from ..rtb_addon.blender.fields import FIELDS, field_of
+
+INDICES = (RTB_OT_use_flat_spectrum, RTB_OT_use_table)
+ANY = (
+    RTB_OT_use_flat_spectrum,
+    RTB_OT_use_daylight,
+    RTB_OT_use_blackbody,
+    RTB_OT_use_colour,
+    RTB_OT_use_table,
+)
 
 
-class SpectrumMenu:
-    """The menu of a field; which one says the class, as menus take no arguments."""
+def draw_menu(row, field: str) -> None:
+    """Draw the button of the menu beside a field, which it is told of as menus take no arguments."""
+    row.context_string_set("rtb_field", field)
+    row.menu(RTB_MT_spectrum.bl_idname, text="", icon="DOWNARROW_HLT")
 
+
+class RTB_MT_spectrum(bpy.types.Menu):
+    """Ways to say this spectrum"""
+
+    bl_idname = "RTB_MT_spectrum"
     bl_label = "Spectrum"
-    field: str
 
     def draw(self, context):
+        field = getattr(context, "rtb_field", "CELL")
         layout = self.layout
         layout.operator_context = "INVOKE_DEFAULT"
-        layout.operator(
-            RTB_OT_use_library_spectrum.bl_idname, text="Library…", icon="VIEWZOOM"
-        ).field = self.field
-        layout.operator(
-            RTB_OT_use_spectrum_file.bl_idname, text="File…", icon="FILEBROWSER"
-        ).field = self.field
+        layout.operator(RTB_OT_use_library_spectrum.bl_idname, text="Library…", icon="VIEWZOOM").field = field
+        layout.operator(RTB_OT_use_spectrum_file.bl_idname, text="File…", icon="FILEBROWSER").field = field
         layout.separator()
-        for verb in (RTB_OT_use_flat_spectrum, RTB_OT_use_daylight, RTB_OT_use_blackbody, RTB_OT_use_colour):
-            layout.operator(verb.bl_idname, text=f"{verb.bl_label}…").field = self.field
-        if self.field != "CELL":
+        for verb in INDICES if FIELDS[field].index else ANY:
+            layout.operator(verb.bl_idname, text=f"{verb.bl_label}…").field = field
+        if field != "CELL":
             layout.separator()
-            self.draw_variables(layout, context.scene.rtb)
+            self.draw_variables(layout, context.scene.rtb, field)
 
-    def draw_variables(self, layout, settings):
+    def draw_variables(self, layout, settings, field):
         """Draw what the conditions may say."""
         for variable in settings.variables:
             entry = layout.operator(RTB_OT_use_variable.bl_idname, text=f"Variable ({variable.name})")
-            entry.field, entry.variable = self.field, variable.name
-        layout.operator(RTB_OT_vary_in_recipe.bl_idname, text="New Variable").field = self.field
-
-
-class RTB_MT_reflectance(SpectrumMenu, bpy.types.Menu):
-    """What a surface reflects"""
-
-    bl_idname = "RTB_MT_reflectance"
-    field = "REFLECTANCE"
-
-
-class RTB_MT_light(SpectrumMenu, bpy.types.Menu):
-    """What a lamp sends out"""
-
-    bl_idname = "RTB_MT_light"
-    field = "LIGHT"
-
-
-class RTB_MT_world(SpectrumMenu, bpy.types.Menu):
-    """What comes from all around"""
-
-    bl_idname = "RTB_MT_world"
-    field = "WORLD"
-
-
-class RTB_MT_emission(SpectrumMenu, bpy.types.Menu):
-    """What a mesh sends out"""
-
-    bl_idname = "RTB_MT_emission"
-    field = "EMISSION"
-
-
-class RTB_MT_cell(SpectrumMenu, bpy.types.Menu):
-    """What a condition says"""
-
-    bl_idname = "RTB_MT_cell"
-    field = "CELL"
-
-
-MENUS = {
-    kind.field: kind
-    for kind in (RTB_MT_reflectance, RTB_MT_light, RTB_MT_world, RTB_MT_emission, RTB_MT_cell)
-}
+            entry.field, entry.variable = field, variable.name
+        layout.operator(RTB_OT_vary_in_recipe.bl_idname, text="New Variable").field = field
 
 
 def draw_in_context_menu(menu, context):

@@ -92,7 +92,7 @@ def _refuse_other_kinds(first: str, wanted: dict, name: str, found: dict) -> Non
 
 
 def _kind(statement: Statement) -> tuple:
-    parameters = sorted((*statement.spectra, *statement.numbers))
+    parameters = sorted((*statement.spectra, *statement.numbers, *statement.words))
     return statement.model, statement.category, parameters
 
 
@@ -100,7 +100,8 @@ def _merged(same: Sequence[Statement]) -> Statement:
     one = same[0]
     spectra = {name: _one_or_varied([each.spectra[name] for each in same]) for name in one.spectra}
     numbers = {name: _one_or_varied([each.numbers[name] for each in same]) for name in one.numbers}
-    return Statement(one.id, one.name, one.category, one.model, spectra, numbers)
+    words = {name: _one_or_varied([each.words[name] for each in same]) for name in one.words}
+    return Statement(one.id, one.name, one.category, one.model, spectra, numbers, words)
 
 
 def _one_or_varied(values: Sequence[Any]) -> Any:

@@ -3,10 +3,15 @@
 from __future__ import annotations
 
 import math
+from collections.abc import Iterator
 from dataclasses import dataclass
 from typing import Literal
 
+import numpy as np
+
 from ..errors import RecipeError
+
+_NEAREST = 1e-5  # that Blender focuses at [scene units]
 
 
 @dataclass(frozen=True)
@@ -21,6 +26,7 @@ class View:
     pixel_aspect : a pixel's width by its height
     shift : right and up, as fractions of the picture's longer side
     clip : near and far [scene units]
+    lens : radius of the lens and the distance that is sharp [scene units]; None where all is sharp
     """
 
     projection: Literal["perspective", "orthographic"]
@@ -29,6 +35,7 @@ class View:
     pixel_aspect: float
     shift: tuple[float, float]
     clip: tuple[float, float]
+    lens: tuple[float, float] | None = None
 
     @property
     def xfov(self) -> float:
@@ -64,3 +71,39 @@ def view_of(camera, render, size: tuple[int, int], name: str) -> View:
         (camera.shift_x * shift, camera.shift_y * shift),
         (camera.clip_start, camera.clip_end),
     )
+
+
+def lens_of(camera, to_world) -> tuple[float, float] | None:
+    """
+    Return the radius of a camera's lens and the distance that is sharp, or None [scene units].
+
+    As Cycles has it: the focal length by twice the f-number, millimetres being thousandths of a unit, and the
+    distance of the focus object along the view.
+
+    Parameters
+    ----------
+    to_world : (4, 4) array, of the camera
+    """
+    if not camera.dof.use_dof or camera.type != "PERSP":
+        return None
+    radius = camera.lens * 1e-3 / (2 * camera.dof.aperture_fstop)
+    focus = camera.dof.focus_object
+    if focus is None:
+        return radius, max(camera.dof.focus_distance, _NEAREST)
+    ahead = np.array(to_world[:3, 2]) / np.linalg.norm(to_world[:3, 2])
+    distance = abs(float(ahead @ (np.array(focus.matrix_world.translation) - to_world[:3, 3])))
+    return radius, max(distance, _NEAREST)
+
+
+def not_round(camera) -> Iterator[str]:
+    """Yield what of a camera's depth of field no renderer here has, a clause each."""
+    dof = camera.dof
+    if not dof.use_dof:
+        return
+    if camera.type == "ORTHO":
+        yield "is sharp everywhere, for its view is parallel"
+        return
+    if dof.aperture_blades > 2 or dof.aperture_ratio != 1.0:
+        yield "has a round aperture, without its blades and ratio"
+    if dof.focus_object is not None and dof.focus_subtarget:
+        yield "is focused on the whole armature, not on its bone"

@@ -3,10 +3,12 @@
 from __future__ import annotations
 
 import re
+from collections.abc import Iterator
 from typing import NamedTuple
 
 from ..errors import RecipeError
 from .folders import typed
+from .material_words import is_typed, parameters, takes_texture, texture_of, words_of
 
 _VARIABLE = re.compile(r"\(([^()]+)\)")
 
@@ -21,14 +23,30 @@ class Field(NamedTuple):
     name : of the property
     variable : what its variable is called where conditions vary it
     shines : whether it is light, and not what a surface does with light
+    within : the group of the thing's properties that has it; empty for the thing's own
+    index : whether it is an index of refraction or extinction, and not a part of the light
     """
 
     thing: str
     name: str
     variable: str
     shines: bool
+    within: str = ""
+    index: bool = False
 
 
+def _of_materials() -> Iterator[tuple[str, Field]]:
+    for parameter, each in parameters():
+        name = words_of(parameter).name
+        if is_typed(each.kind):
+            yield name.upper(), Field("material", name, name, False, index=name in INDICES)
+        if takes_texture(parameter, each.kind):
+            within = texture_of(name)
+            for own in ("even", "odd"):
+                yield f"{name}_{own}".upper(), Field("material", own, f"{own}_{name}", False, within)
+
+
+INDICES = ("eta", "k", "ior")
 FIELDS = {
     "REFLECTANCE": Field("material", "reflectance", "reflectance", False),
     "LIGHT": Field("light", "spectrum", "light", True),
@@ -36,34 +54,54 @@ FIELDS = {
     "EMISSION": Field("object", "spectrum", "emission", True),
     "CELL": Field("scene", "value", "", False),
 }
-ITEMS = (
-    ("REFLECTANCE", "Reflectance", "Of the active material", 1),
-    ("LIGHT", "Light", "Of the active lamp", 2),
-    ("WORLD", "World", "Of the scene's world", 3),
-    ("EMISSION", "Emission", "Of the active mesh", 4),
-    ("CELL", "Cell", "Of the active condition, for the active variable", 5),
+FIELDS.update(dict(_of_materials()))
+ITEMS = tuple(
+    (key, f"{each.thing.title()} {each.variable.replace('_', ' ').title()}".strip(), "", number)
+    for number, (key, each) in enumerate(FIELDS.items(), 1)
 )
 _GROUPS = {
-    ("RTB_PG_material", "reflectance"): "REFLECTANCE",
-    ("RTB_PG_light", "spectrum"): "LIGHT",
-    ("RTB_PG_world", "spectrum"): "WORLD",
-    ("RTB_PG_object", "spectrum"): "EMISSION",
+    "material": "RTB_PG_material",
+    "light": "RTB_PG_light",
+    "world": "RTB_PG_world",
+    "object": "RTB_PG_object",
 }
 
 
 def field_of(group, name: str) -> str | None:
     """Return which field a property of a property group is, None if it is no spectrum."""
-    return _GROUPS.get((type(group).__name__, name))
+    kind = type(group).__name__
+    for key, field in FIELDS.items():
+        if field.name == name and field.thing in _GROUPS:
+            if not field.within and kind == _GROUPS[field.thing]:
+                return key
+            if (
+                field.within
+                and kind == "RTB_PG_texture"
+                and group == getattr(group.id_data.rtb, field.within)
+            ):
+                return key
+    return None
 
 
-def owner_of(context, field: str):
+def fields_of(thing: str) -> Iterator[Field]:
+    """Yield the fields that things of a kind have."""
+    yield from (field for field in FIELDS.values() if field.thing == thing)
+
+
+def owner_of(context, key: str):
     """Return the property group that has a field, of what is active where the context is."""
-    thing = _thing(context, FIELDS[field].thing)
+    field = FIELDS[key]
+    thing = active(context, field.thing)
     if thing is None:
-        raise RecipeError(f"no {FIELDS[field].thing} is active here, select one first")
+        raise RecipeError(f"no {field.thing} is active here, select one first")
     if thing.library is not None:
         raise RecipeError(f"{thing.name} is linked from another file, change it there")
-    return _active_cell(thing.rtb) if field == "CELL" else thing.rtb
+    return _active_cell(thing.rtb) if key == "CELL" else group_of(thing, field)
+
+
+def group_of(thing, field: Field):
+    """Return the property group of a thing that has a field."""
+    return getattr(thing.rtb, field.within) if field.within else thing.rtb
 
 
 def typed_in(group, name: str, settings) -> str:
@@ -77,7 +115,7 @@ def varies(text: str) -> bool:
     return _VARIABLE.search(text) is not None
 
 
-def _thing(context, kind: str):
+def active(context, kind: str):
     """Return the active thing of a kind; where the editor knows none, that of the active object."""
     if (found := getattr(context, kind, None)) is not None:
         return found

@@ -6,9 +6,10 @@ import math
 from collections.abc import Mapping
 from dataclasses import dataclass
 
+from ..photometry import lumens
 from ..spectra import FULL_RANGE, Spectrum, Unit
 from ..spectra.promotion import promoted
-from . import lights
+from . import amounts, lights
 from .colours import linear_rec709
 from .folders import typed
 from .statements import Spoken, Statement
@@ -32,7 +33,9 @@ class Lamp:
     kind : a light of the vocabulary
     colour : linear Rec.709, white for a tagged one
     watts : its power [W], a sun's irradiance [W m-2]
-    factor : from watts to what the kind is measured in; an area lamp's is for its own area
+    factor : from watts, or its amount, to what the kind is measured in; not for area lamps
+    lumens : its amount where that is measured as the eye weighs light, else None
+    measure, distance : how that is measured, and how far away [m]
     spectrum : as typed; None for its colour
     numbers : further parameters of the vocabulary [m, degrees]
     shape, size : of an area lamp [scene units]
@@ -49,7 +52,16 @@ class Lamp:
     shape: str = ""
     size: tuple[float, float] = (0.0, 0.0)
     normalize: bool = True
+    lumens: float | None = None
+    measure: str = "WATTS"
+    distance: float = 1.0
     remarks: tuple[str, ...] = ()
+
+    def area_factor(self, width: float, height: float, area: float) -> float:
+        """Return an area lamp's factor for its sides [m] and area [m2] in the world."""
+        if self.lumens is None:
+            return lights.area_radiance(area, self.normalize)
+        return amounts.area(self.measure, self.shape, width, height, self.distance, f"the light {self.name}")
 
     def statement(self, id: str, factor: float | None = None) -> Statement:
         """Return what the mappings say about it; an area lamp's factor depends on where it stands."""
@@ -59,14 +71,17 @@ class Lamp:
     @property
     def shown(self) -> tuple[float, float, float]:
         """Linear Rec.709 components of what it sends out, per nm, for readers without mappings."""
-        scale = self.watts * self.factor / (FULL_RANGE[1] - FULL_RANGE[0])
+        flat = Spectrum.constant(1.0)
+        amount = self.watts / flat.integral() if self.lumens is None else self.lumens / lumens(flat)
+        scale = amount * self.factor
         red, green, blue = (component * scale for component in self.colour)
         return red, green, blue
 
     def _intensity(self, factor: float) -> Spoken | Spectrum:
         unit = _UNITS[self.kind]
         if self.spectrum is not None:
-            return Spoken(self.spectrum, f"the light {self.name}", unit, factor, self.watts)
+            owner, watts = f"the light {self.name}", self.watts if self.lumens is None else None
+            return Spoken(self.spectrum, owner, unit, factor, watts, self.lumens)
         # White carries all the watts, and half of it half of them.
         width = FULL_RANGE[1] - FULL_RANGE[0]
         return promoted(self.colour).scaled(self.watts * factor / width, unit)
@@ -83,6 +98,10 @@ def read_lamp(light, meter: float) -> Lamp:
     name, kind, tagged = light.name_full, _KINDS[light.type], light.rtb.use_spectra
     strength = lights.watts(light.energy, light.exposure)
     factor, numbers = _closed_form(light, meter)
+    settings, distance = light.rtb, light.rtb.distance * meter
+    measured = tagged and settings.measure != "WATTS"
+    if measured:
+        factor = _measured_factor(settings.measure, kind, numbers, distance, f"the light {name}")
     return Lamp(
         name,
         kind,
@@ -94,8 +113,22 @@ def read_lamp(light, meter: float) -> Lamp:
         shape=light.shape if kind == "area" else "",
         size=_size(light) if kind == "area" else (0.0, 0.0),
         normalize=light.normalize,
+        lumens=settings.amount if measured else None,
+        measure=settings.measure if measured else "WATTS",
+        distance=distance,
         remarks=tuple(_remarks(light, strength)),
     )
+
+
+def _measured_factor(
+    measure: str, kind: str, numbers: Mapping[str, float], distance: float, owner: str
+) -> float:
+    """Return the factor of an amount as the eye weighs it."""
+    if kind == "area":
+        return 1.0
+    if kind == "directional":
+        return amounts.sun(measure, numbers["angle"], owner)
+    return amounts.point(measure, numbers, distance, owner)
 
 
 def _closed_form(light, meter: float) -> tuple[float, dict[str, float]]:
@@ -124,5 +157,7 @@ def _remarks(light, strength: float):
         yield f"{name} has no spectrum: its colour is promoted to one that carries its power"
     elif min(lights.colour_of(light)) != 1.0 or max(lights.colour_of(light)) != 1.0:
         yield f"{name} shines in its spectrum, not in its colour"
+    if light.rtb.use_spectra and light.rtb.measure != "WATTS" and light.rtb.amount <= 0:
+        yield f"{name} has an amount of 0: it is off"
     for clause in lights.unsupported(light):
         yield f"{name} is approximate: {clause}"

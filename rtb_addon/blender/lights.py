@@ -54,6 +54,27 @@ def area_of(shape: str, width: float, height: float) -> float:
     return sides * (math.pi / 4 if shape in ("DISK", "ELLIPSE") else 1.0)
 
 
+def area_on_axis(shape: str, width: float, height: float, distance: float) -> float:
+    """
+    Return what a radiance is multiplied by to be the irradiance that faces a lamp's middle [sr].
+
+    Parameters
+    ----------
+    width, height : sides or diameters, both, whatever the shape [m]
+    distance : from the lamp [m]
+    """
+    a, b = width / 2, height / 2
+    if shape in ("DISK", "ELLIPSE"):
+        return math.pi * a * b / math.sqrt((a * a + distance**2) * (b * b + distance**2))
+    across, along = math.hypot(a, distance), math.hypot(b, distance)
+    return 2 * (a / across * math.atan(b / across) + b / along * math.atan(a / along))
+
+
+def spot_solid_angle(cone: float, blend: float) -> float:
+    """Return what the intensity on a spot's axis is multiplied by to be its power [sr]."""
+    return 2 * math.pi * (1 - math.cos(cone / 2)) * (1 - blend / 2)
+
+
 def smooth_edge(cosine: float, cone: float, blend: float) -> float:
     """
     Return how much of its intensity a spot lamp sends in a direction, by Blender's smooth step.

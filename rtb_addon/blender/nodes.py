@@ -30,7 +30,7 @@ def colour_of_material(material) -> Found:
     """Return the base colour of a material's principled or diffuse shader, else its viewport colour."""
     if not has_nodes(material):
         return Found(_three(material.diffuse_color), "viewport colour")
-    node = _surface_node(material.node_tree)
+    node = surface_node(material.node_tree)
     if node is None or node.type not in _COLOURED:
         return Found(_three(material.diffuse_color), "viewport colour")
     socket = node.inputs[_COLOURED[node.type]]
@@ -38,8 +38,8 @@ def colour_of_material(material) -> Found:
 
 
 def base_colour(thing):
-    """Return the socket with the one colour of a material or world, None where there is none or a texture."""
-    node = _surface_node(thing.node_tree) if has_nodes(thing) else None
+    """Return the socket that holds the one colour of a material or world, None where it has none."""
+    node = surface_node(thing.node_tree) if has_nodes(thing) else None
     name = {**_COLOURED, "BACKGROUND": "Color"}.get("" if node is None else node.type)
     socket = None if node is None or name is None else node.inputs[name]
     return None if socket is None or socket.is_linked else socket
@@ -47,7 +47,7 @@ def base_colour(thing):
 
 def glows(material) -> bool:
     """Return whether a material's nodes make it send out light of its own."""
-    node = _surface_node(material.node_tree) if has_nodes(material) else None
+    node = surface_node(material.node_tree) if has_nodes(material) else None
     if node is None or node.type not in _GLOWING:
         return False
     colour, strength = (node.inputs[name] for name in _GLOWING[node.type])
@@ -60,26 +60,35 @@ def has_nodes(thing) -> bool:
     return getattr(thing, "use_nodes", True) and thing.node_tree is not None
 
 
-def is_black(world) -> bool:
-    """Return whether Blender's world sends out no light."""
-    if not has_nodes(world):
-        return max(world.color) <= 0
-    node = _surface_node(world.node_tree)
-    if node is None:
-        return True
-    if node.type != "BACKGROUND" or any(socket.is_linked for socket in node.inputs):
-        return False
-    dark = max(_three(node.inputs["Color"].default_value)) <= 0
-    return dark or node.inputs["Strength"].default_value <= 0
-
-
-def _surface_node(tree):
+def surface_node(tree):
     """Return the node that the active output shows, or None."""
     outputs = [node for node in tree.nodes if node.type in _OUTPUTS]
     chosen = next((node for node in outputs if node.is_active_output), None)
     if chosen is None or not chosen.inputs["Surface"].is_linked:
         return None
     return chosen.inputs["Surface"].links[0].from_node
+
+
+def image_of(node, name: str):
+    """Return the image that fills in a node's input, over the UV map, or None where it is not as simple."""
+    socket = next((each for each in node.inputs if each.name.lower() == name.lower()), None)
+    if socket is None or not socket.is_linked:
+        return None
+    source = socket.links[0].from_node
+    return source.image if source.type == "TEX_IMAGE" and not source.inputs["Vector"].is_linked else None
+
+
+def is_black(world) -> bool:
+    """Return whether Blender's world sends out no light."""
+    if not has_nodes(world):
+        return max(world.color) <= 0
+    node = surface_node(world.node_tree)
+    if node is None:
+        return True
+    if node.type != "BACKGROUND" or any(socket.is_linked for socket in node.inputs):
+        return False
+    dark = max(_three(node.inputs["Color"].default_value)) <= 0
+    return dark or node.inputs["Strength"].default_value <= 0
 
 
 def _three(colour) -> tuple[float, float, float]:

@@ -17,6 +17,8 @@ from .lamps import Lamp
 from .materials import LAMP_BLACK, Paint
 from .seen import Node, Seen
 from .statements import Statement
+from .surfaces import statements
+from .worlds import Sky
 
 _ELLIPSES = ("DISK", "ELLIPSE")
 _DOWN = np.array([1, -1, -1], np.float32)
@@ -53,9 +55,7 @@ class ParentWriter:
         for node in self.seen.nodes.values():
             self._node(node)
         if self.seen.world is not None:
-            id = self.document.ids.take("World", "-light")
-            radiance = {"intensity": self.seen.world}
-            self._say(Statement(id, "World", "light", "environment", radiance, {}))
+            self._sky(self.seen.world)
         self.parent.content = self.document.tobytes()
         return self.parent
 
@@ -118,32 +118,51 @@ class ParentWriter:
         self.document.use_lamp(id, made)
         self._say(lamp.statement(made))
 
+    def _sky(self, sky: Sky) -> None:
+        """Say what comes from all around; a picture stands in the scene as a lamp that turns with it."""
+        if sky.picture is None:
+            id = self.document.ids.take("World", "-light")
+        else:
+            id = self.document.lamp("World", "ambient", (0.0, 0.0, 0.0))
+            self.document.use_lamp(self.document.node("World", Placement(rotation=sky.rotation)), id)
+        words = {} if sky.picture is None else {"filename": sky.picture}
+        self._say(Statement(id, "World", "light", "environment", {"intensity": sky.radiance}, {}, words))
+
     def _area_lamp(self, id: str, node: Node, lamp: Lamp) -> None:
         """Write an area lamp as a black surface that emits, one geometry for each size in the world."""
-        stretched = np.linalg.norm(np.cross(node.to_world[:3, 0], node.to_world[:3, 1]))
-        area = lights.area_of(lamp.shape, *lamp.size) * float(stretched) * self.seen.meter**2
+        across, along = (node.to_world[:3, axis] * self.seen.meter for axis in (0, 1))
+        area = lights.area_of(lamp.shape, *lamp.size) * float(np.linalg.norm(np.cross(across, along)))
         if area <= 0:
             self.seen.remarks.append(f"the light {lamp.name} has no area and is off")
             return
         black = self._paint(LAMP_BLACK)
         surface = lamp_surface(lamp.shape, lamp.size, black)
-        key = (lamp.name, f"{area:.6e}")
+        width, height = (
+            float(np.linalg.norm(each)) * size for each, size in zip((across, along), lamp.size, strict=True)
+        )
+        key = (lamp.name, f"{area:.6e}", f"{width:.6e}")
         geometry = self._once("area", key, lambda: self.document.geometry(lamp.name, surface))
         self.document.use_geometry(id, geometry, {black: black})
-        self._say(lamp.statement(geometry, lights.area_radiance(area, lamp.normalize)))
+        self._say(lamp.statement(geometry, lamp.area_factor(width, height, area)))
 
     def _camera(self, id: str, node: Node) -> None:
         name = str(node.content)
         view = self.seen.views[name]
-        eye = self._once("camera", name, lambda: self.document.eye(name, collada_view(view), view.shift))
+        eye = self._once(
+            "camera", name, lambda: self.document.eye(name, collada_view(view), view.shift, view.lens)
+        )
         self.document.use_eye(id, eye)
         self.parent.cameras.setdefault(node.name, id)
 
     def _paint(self, paint: Paint) -> str:
-        id = self._once("paint", paint.name, lambda: self.document.material(paint.name, paint.colour))
-        if (statement := paint.statement(id)) is not None:
-            self._say(statement)
-        return id
+        if ("paint", paint.name) not in self._ids:
+            id = self._ids["paint", paint.name] = self.document.material(paint.name, paint.colour)
+            for each in statements(paint, id, self.document.ids.take, self._part):
+                self._say(each)
+        return self._ids["paint", paint.name]
+
+    def _part(self, name: str) -> str:
+        return self._paint(self.seen.paints[name])
 
     def _once(self, kind: str, key: object, make) -> str:
         """Return the id of something, which is made the first time."""

@@ -11,13 +11,16 @@ from bpy.props import (
     CollectionProperty,
     EnumProperty,
     FloatProperty,
+    FloatVectorProperty,
     IntProperty,
     PointerProperty,
     StringProperty,
 )
 
 from . import table_properties
+from .amounts import MEASURES
 from .conditions import set_conditions
+from .material_properties import RTB_PG_material, RTB_PG_texture
 from .table_properties import RTB_PG_condition, RTB_PG_kept, RTB_PG_mapping, RTB_PG_variable
 
 RENDERERS = (
@@ -32,10 +35,19 @@ FILLS = (
     ("columns", "Down the Columns", "Conditions go down the columns, as in RenderToolbox3", 1),
     ("rows", "Along the Rows", "Conditions go along the rows, as the patches of a chart", 2),
 )
-MODELS = (("matte", "Matte", "Reflects evenly to all sides", 1),)
 EMISSIONS = (
     ("radiance", "Radiance", "The amount is a factor of a spectrum of radiance, in W / (sr m² nm)", 1),
     ("watts", "Watts", "The amount is the power in watts that the surface sends out", 2),
+    ("lumens", "Lumens", "The amount is the luminous flux that the surface sends out", 3),
+    ("nits", "Luminance (cd/m²)", "The amount is how bright the surface looks", 4),
+)
+SKIES = (
+    ("CONSTANT", "Everywhere", "The same from all directions", 1),
+    ("IMAGE", "Image", "A picture all around, of colours or of spectra (EXR)", 2),
+)
+SKY_MEASURES = (
+    ("RADIANCE", "Radiance", "The amount is a factor of a spectrum of radiance, in W / (sr m² nm)", 1),
+    ("NITS", "Luminance (cd/m²)", "The amount is how bright it looks", 2),
 )
 _SPOKEN = (
     "a name of the library (D65), daylight 5000, blackbody 3000, pairs like 400:0.2 700:0.8, a number, "
@@ -117,20 +129,8 @@ class RTB_PG_scene(bpy.types.PropertyGroup):
         set_conditions(self.id_data, variables, rows)
 
 
-class RTB_PG_material(bpy.types.PropertyGroup):
-    """What a surface does with light of each wavelength."""
-
-    use_spectra: BoolProperty(
-        name="Use Spectra", description="Reflect as said here instead of by the colour", default=False
-    )
-    model: EnumProperty(name="Model", items=MODELS, default="matte")
-    reflectance: StringProperty(
-        name="Reflectance", description=f"Reflectance, 0 to 1: {_SPOKEN}", default="0.5"
-    )
-
-
 class RTB_PG_light(bpy.types.PropertyGroup):
-    """What light a lamp sends out; how much stays Blender's power."""
+    """What light a lamp sends out, and how much: Blender's power, or as people measure light."""
 
     use_spectra: BoolProperty(
         name="Use Spectra", description="Shine as said here instead of in the colour", default=False
@@ -138,16 +138,36 @@ class RTB_PG_light(bpy.types.PropertyGroup):
     spectrum: StringProperty(
         name="Spectrum", description=f"Shape of the spectrum, scaled to the power: {_SPOKEN}", default="D65"
     )
+    measure: EnumProperty(name="Amount As", items=MEASURES, default="WATTS")
+    amount: FloatProperty(
+        name="Amount",
+        description="In the unit beside it; Blender's own power then counts no more",
+        default=100.0,
+        min=0.0,
+    )
+    distance: FloatProperty(
+        name="At Distance", description="Where the illuminance is", default=1.0, min=0.0, unit="LENGTH"
+    )
 
 
 class RTB_PG_world(bpy.types.PropertyGroup):
     """What light comes from all around."""
 
     use_spectra: BoolProperty(name="Use Spectra", description="Let the world shine", default=False)
+    kind: EnumProperty(name="Light From", items=SKIES, default="CONSTANT")
     spectrum: StringProperty(
         name="Spectrum", description=f"Radiance, in W / (sr m² nm): {_SPOKEN}", default="1"
     )
+    measure: EnumProperty(name="Amount As", items=SKY_MEASURES, default="RADIANCE")
     amount: FloatProperty(name="Amount", description="Factor of the spectrum", default=1.0, min=0.0)
+    image: PointerProperty(
+        type=bpy.types.Image,
+        name="Image",
+        description="Equirectangular, as Blender's: its middle lies ahead of +X",
+    )
+    rotation: FloatVectorProperty(
+        name="Rotation", description="Of the image, around X, Y and Z", size=3, subtype="EULER"
+    )
 
 
 class RTB_PG_object(bpy.types.PropertyGroup):
@@ -162,6 +182,7 @@ class RTB_PG_object(bpy.types.PropertyGroup):
 _CLASSES = (
     *table_properties.CLASSES,
     RTB_PG_scene,
+    RTB_PG_texture,
     RTB_PG_material,
     RTB_PG_light,
     RTB_PG_world,

@@ -15,14 +15,14 @@ from ..scene.write_ids import Ids
 from ..scene.write_numbers import shortest
 from ..spectra import FloatArray, Unit
 from . import lights
-from .cameras import View, view_of
+from .cameras import View, lens_of, not_round, view_of
 from .folders import typed
 from .lamps import Lamp, read_lamp
-from .materials import Paint, read_material
+from .materials import Paint, parts_of, read_material
 from .meshes import surface_of
 from .properties import rendered_size
 from .statements import Spoken
-from .worlds import read_world
+from .worlds import Sky, read_world
 
 # Objects that hold something to render, but nothing that can be written as triangles.
 _UNKNOWN = {
@@ -38,10 +38,10 @@ _SLOT = "slot"
 
 @dataclass(frozen=True)
 class Emission:
-    """What a mesh sends out: a spectrum as typed, times radiance or watts."""
+    """What a mesh sends out: a spectrum as typed, times an amount of radiance, watts, lumens or cd/m2."""
 
     spectrum: str
-    measure: Literal["radiance", "watts"]
+    measure: Literal["radiance", "watts", "lumens", "nits"]
     amount: float
 
     def spoken(self, name: str, area: float) -> Spoken:
@@ -49,6 +49,10 @@ class Emission:
         owner = f"the object {name}"
         if self.measure == "radiance":
             return Spoken(self.spectrum, owner, Unit.RADIANCE, self.amount)
+        if self.measure == "nits":
+            return Spoken(self.spectrum, owner, Unit.RADIANCE, 1.0, lumens=self.amount)
+        if self.measure == "lumens":
+            return Spoken(self.spectrum, owner, Unit.RADIANCE, lights.area_radiance(area), lumens=self.amount)
         return Spoken(self.spectrum, owner, Unit.RADIANCE, lights.area_radiance(area), self.amount)
 
 
@@ -104,7 +108,7 @@ class Seen:
     lamps: dict[str, Lamp] = field(default_factory=dict)
     views: dict[str, View] = field(default_factory=dict)
     paints: dict[str, Paint] = field(default_factory=dict)
-    world: Spoken | None = None
+    world: Sky | None = None
     remarks: list[str] = field(default_factory=list)
 
 
@@ -167,11 +171,10 @@ def _content(seen: Seen, object_, depsgraph) -> dict:
 def _camera(seen: Seen, object_, scene) -> str:
     camera = object_.data
     if camera.name_full not in seen.views:
-        seen.views[camera.name_full] = view_of(camera, scene.render, rendered_size(scene), object_.name_full)
-        if camera.dof.use_dof:
-            seen.remarks.append(
-                f"the camera {object_.name_full} is sharp everywhere: no renderer here knows focus"
-            )
+        view = view_of(camera, scene.render, rendered_size(scene), object_.name_full)
+        lens = lens_of(camera, np.array(object_.matrix_world, float))
+        seen.views[camera.name_full] = replace(view, lens=lens)
+        seen.remarks.extend(f"the camera {object_.name_full} {clause}" for clause in not_round(camera))
     return camera.name_full
 
 
@@ -210,9 +213,16 @@ def _material(seen: Seen, object_, slot: int, override) -> str:
     if material is None:
         where = f"in slot {slot + 1}" if len(own) > 1 else "give it one"
         raise RecipeError(f"the object {object_.name_full} has no material, {where}")
-    if material.name_full not in seen.paints:
-        seen.paints[material.name_full] = read_material(material)
+    _know(seen, material)
     return material.name_full
+
+
+def _know(seen: Seen, material) -> None:
+    """Read a material and those that it is made of."""
+    if material.name_full not in seen.paints:
+        seen.paints[material.name_full] = read_material(material, seen.meter)
+        for part in parts_of(material):
+            _know(seen, part)
 
 
 def _emission(object_) -> Emission | None:

@@ -14,23 +14,31 @@ from ..spectra import Spectrum, Unit
 from ..spectra.files import spd_text
 from ..spectra.spoken import spectrum_from
 from .conditions import IMAGE_NAME
-from .statements import Spoken, Statement, Varied
+from .statements import Named, Picture, Spoken, Statement, Varied
 
 _VARIABLE = re.compile(r"\(([^()]+)\)")
 _FOLDER = "resources"
 
 
 class SpectrumFiles:
-    """The spectra of a recipe as files below resources/, each content once under each name."""
+    """The spectra and pictures of a recipe as files below resources/, each content once under each name."""
 
     def __init__(self) -> None:
         self.contents: dict[str, bytes] = {}
 
     def add(self, name: str, spectrum: Spectrum) -> str:
         """Return the path, in the recipe's folder, of a spectrum's file."""
-        content, number = spd_text(spectrum).encode(), 1
+        return self._keep(_stem(name), ".spd", spd_text(spectrum).encode())
+
+    def picture(self, picture: Picture) -> str:
+        """Return the path, in the recipe's folder, of a picture's file."""
+        file = Path(picture.name)
+        return self._keep(_stem(file.stem), file.suffix.lower(), picture.content)
+
+    def _keep(self, stem: str, ending: str, content: bytes) -> str:
+        number = 1
         while True:
-            file = f"{_stem(name)}{f'-{number}' if number > 1 else ''}.spd"
+            file = f"{stem}{f'-{number}' if number > 1 else ''}{ending}"
             twins = [each for each in self.contents if each.casefold() == file.casefold()]
             if not twins or (twins == [file] and self.contents[file] == content):
                 self.contents[file] = content
@@ -142,6 +150,9 @@ def mappings_text(
         for parameter, number in each.numbers.items():
             value = _number(number, f"{each.name} {parameter}", table)
             lines.append(f"{each.id}:{parameter}.float = {value}")
+        for parameter, word in each.words.items():
+            kind, value = _word(word, f"{each.name} {parameter}", table, files)
+            lines.append(f"{each.id}:{parameter}.{kind} = {value}")
     body = "".join(f"    {line}\n" for line in lines)
     return f"Generic {{\n{body}}}\n" if body else ""
 
@@ -151,6 +162,16 @@ def _number(number: float | Varied, name: str, table: Table) -> str:
         cells = [f"{shortest(each):.9g}" for each in number.values]
         return f"({table.varied(clean(name), cells)})"
     return f"{shortest(number):.9g}"
+
+
+def _word(word: Named | Picture | Varied, name: str, table: Table, files: SpectrumFiles) -> tuple[str, str]:
+    """Return the type and the value of a word."""
+    if isinstance(word, Picture):
+        return "string", files.picture(word)
+    if isinstance(word, Varied):
+        said = [_word(each, name, table, files) for each in word.values]
+        return said[0][0], f"({table.varied(clean(name), [value for _, value in said])})"
+    return word.type, word.text
 
 
 def _varied(spectra: Varied, name: str, table: Table, files: SpectrumFiles, folder: Path | None) -> str:
@@ -194,7 +215,7 @@ _REFLECTANCE = Spoken("", "").treatment[1:]
 
 def _heard(spoken: Spoken, text: str, folder: Path | None) -> Spectrum:
     """Return a spectrum that was typed, in the unit that it is for."""
-    as_typed = Unit.SHAPE if spoken.watts is not None else spoken.unit
+    as_typed = Unit.SHAPE if spoken.is_shape else spoken.unit
     try:
         return spoken.meant(spectrum_from(text, as_typed, folder))
     except (RecipeError, ValueError) as error:

@@ -9,14 +9,15 @@ import bpy
 
 from ..errors import RecipeError, choices
 from .conditions import IMAGE_NAME
+from .fields import fields_of, group_of
 
 _NO_NAME = re.compile(r"[()\t\r\n]")
-# What may name a variable: each kind of thing and its properties that are spectra.
-SPECTRA = (
-    ("materials", ("reflectance",)),
-    ("lights", ("spectrum",)),
-    ("worlds", ("spectrum",)),
-    ("objects", ("spectrum",)),
+# What may name a variable in its spectra: lists of things, and what fields.py calls one of them.
+_THINGS = {"materials": "material", "lights": "light", "worlds": "world", "objects": "object"}
+# Of them those spectra that have a colour and are the thing's own.
+SPECTRA = tuple(
+    (home, tuple(field.name for field in fields_of(word) if not (field.within or field.index)))
+    for home, word in _THINGS.items()
 )
 
 
@@ -154,9 +155,10 @@ def free_name(name: str, taken: Iterable[str]) -> str:
 
 def spoken_fields() -> Iterator[tuple[bpy.types.PropertyGroup, str]]:
     """Yield everything of the file that may name a variable: its owner and the property."""
-    for kind, fields in SPECTRA:
+    for kind, word in _THINGS.items():
+        fields = list(fields_of(word))
         for thing in getattr(bpy.data, kind):
-            yield from ((thing.rtb, field) for field in fields)
+            yield from ((group_of(thing, field), field.name) for field in fields)
 
 
 def _set_cells(row, cells: Sequence[str], count: int) -> None:

@@ -66,7 +66,7 @@ class ParentDocument:
 
     def lamp(self, name: str, kind: str, colour: Colour, cone: float = 45.0, blend: float = 0.0) -> str:
         """
-        Make a lamp that shines along -Z: ``point``, ``spot`` or ``directional``.
+        Make a lamp that shines along -Z, ``point``, ``spot`` or ``directional``, or is ``ambient``.
 
         Parameters
         ----------

@@ -97,7 +97,7 @@ def _clip(clip: tuple[float, float]) -> list[Element]:
 
 def light(id: str, name: str, kind: str, colour: Colour, cone: float, blend: float) -> Element:
     """
-    Return a lamp that falls off with the square of the distance: ``point``, ``spot`` or ``directional``.
+    Return a lamp: ``point`` or ``spot`` with the square of the distance, ``directional`` or ``ambient``.
 
     Parameters
     ----------
@@ -105,7 +105,7 @@ def light(id: str, name: str, kind: str, colour: Colour, cone: float, blend: flo
     cone, blend : of a spot: the full angle [degrees] and how much of it is a soft edge, as Blender wrote them
     """
     lamp = new(kind, new("color", sid="color", text=numbers(colour)))
-    if kind != "directional":
+    if kind not in ("directional", "ambient"):
         lamp.extend(new(f"{term}_attenuation", text="0") for term in ("constant", "linear"))
         lamp.append(new("quadratic_attenuation", text="1"))
     if kind == "spot":

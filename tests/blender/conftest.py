@@ -87,3 +87,30 @@ def box(put):
         return put(name, mesh, **properties)
 
     return put_box
+
+
+@pytest.fixture
+def read(library):
+    """Return how to read a scene's recipe."""
+    return lambda scene: library("blender").read_recipe(scene)
+
+
+@pytest.fixture
+def resolved(library, read, tmp_path):
+    """Return how to see a scene, or a recipe, as renderers see it, for its first or a named condition."""
+
+    def resolve(scene, condition=None, mappings=""):
+        recipe = read(scene)
+        folder = tmp_path / "resolved"
+        recipe.save(folder)
+        find_file = library("recipe").Recipe.load(folder).find_file
+        document = library("scene.document").Scene.parse(recipe.parent, "parent.dae")
+        row = recipe.conditions[condition] if condition else next(iter(recipe.conditions))
+        said = library("mappings").parse_mappings(recipe.mappings + mappings, "mappings.txt")
+        adjustments = said.fill_in(row, "tracer", document, find_file)
+        settings = library("scene.resolve").SceneSettings(
+            film=recipe.options.film, camera=recipe.options.camera
+        )
+        return library("scene.resolve").resolve(document, adjustments, settings, find_file).scene
+
+    return resolve

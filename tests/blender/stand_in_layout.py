@@ -57,7 +57,7 @@ class RecordingLayout:
         assert active in active_owner.bl_rna.properties
         self.drawn.append(("list", kind))
 
-    def template_ID(self, owner, name: str, **_) -> None:
+    def template_ID(self, owner, name: str, **_) -> None:  # noqa: N802  Blender calls it that
         assert name in owner.bl_rna.properties, f"{owner} has no {name}"
         self.drawn.append(("prop", name))
 

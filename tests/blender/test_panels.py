@@ -102,9 +102,14 @@ def test_the_recipes_details_draw_properties_that_exist(panel, running, name):
 
 
 SPECTRAL = [
-    ("spectral_material", "RTB_PT_spectral_material", "material", ["model", "reflectance"]),
-    ("spectral_light", "RTB_PT_spectral_light", "light", ["spectrum"]),
-    ("spectral_world", "RTB_PT_spectral_world", "world", ["spectrum", "amount"]),
+    (
+        "spectral_material",
+        "RTB_PT_spectral_material",
+        "material",
+        ["model", "reflectance", "kind", "detail", "opacity"],
+    ),
+    ("spectral_light", "RTB_PT_spectral_light", "light", ["spectrum", "measure", "energy"]),
+    ("spectral_world", "RTB_PT_spectral_world", "world", ["kind", "spectrum", "measure", "amount"]),
 ]
 
 

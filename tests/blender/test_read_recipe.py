@@ -6,33 +6,6 @@ import pytest
 
 
 @pytest.fixture
-def read(library):
-    """Return how to read a scene's recipe."""
-    return lambda scene: library("blender").read_recipe(scene)
-
-
-@pytest.fixture
-def resolved(library, read, tmp_path):
-    """Return how to see a scene, or a recipe, as renderers see it, for its first or a named condition."""
-
-    def resolve(scene, condition=None, mappings=""):
-        recipe = read(scene)
-        folder = tmp_path / "resolved"
-        recipe.save(folder)
-        find_file = library("recipe").Recipe.load(folder).find_file
-        document = library("scene.document").Scene.parse(recipe.parent, "parent.dae")
-        row = recipe.conditions[condition] if condition else next(iter(recipe.conditions))
-        said = library("mappings").parse_mappings(recipe.mappings + mappings, "mappings.txt")
-        adjustments = said.fill_in(row, "tracer", document, find_file)
-        settings = library("scene.resolve").SceneSettings(
-            film=recipe.options.film, camera=recipe.options.camera
-        )
-        return library("scene.resolve").resolve(document, adjustments, settings, find_file).scene
-
-    return resolve
-
-
-@pytest.fixture
 def still(scene, box, lamp):
     """A scene that can be read: a tagged box and a tagged lamp."""
     box()
@@ -342,7 +315,7 @@ def test_what_has_no_spectrum_is_promoted_and_the_report_says_so(still, read, re
 def test_what_no_renderer_does_is_said(still, read):
     light = bpy.data.lights["Lamp"]
     light.diffuse_factor, light.use_shadow, light.shadow_soft_size, light.color = 0.5, False, 0.2, (1, 0, 0)
-    still.camera.data.dof.use_dof = True
+    still.camera.data.dof.use_dof, still.camera.data.dof.aperture_blades = True, 6
     bpy.data.objects["Box"].visible_shadow = False
     material = bpy.data.materials["Paint"]
     material.use_nodes = True
@@ -354,7 +327,7 @@ def test_what_no_renderer_does_is_said(still, read):
         "shadows",
         "soft falloff",
         "not in its colour",
-        "sharp everywhere",
+        "round aperture",
         "glows",
         "all light",
     ):

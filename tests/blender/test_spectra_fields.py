@@ -127,33 +127,36 @@ def test_a_variable_of_the_table_can_be_taken_and_no_other(material):
 
 def test_the_right_click_offers_to_vary_spectra_and_nothing_else(material, extension):
     menus = sys.modules[f"{extension}.panels.spectrum_menus"]
-    offered = {}
-    for group in (material, bpy.context.scene.rtb, bpy.data.lights["Light"].rtb):
+    offered = set()
+    groups = (material, material.reflectance_texture, bpy.context.scene.rtb, bpy.data.lights["Light"].rtb)
+    for group in groups:
         for name, kind in group.bl_rna.properties.items():
             layout = RecordingLayout()
             context = SimpleNamespace(button_prop=kind, button_pointer=group)
             menus.draw_in_context_menu(SimpleNamespace(layout=layout), context)
-            offered[type(group).__name__, name] = layout.names("operator")
-    assert [key for key, operators in offered.items() if operators] == [
-        ("RTB_PG_material", "reflectance"),
+            if layout.names("operator"):
+                offered.add((type(group).__name__, name))
+    typed = "reflectance base_reflectance specular_reflectance transmittance eta k ior"
+    assert offered == {
+        *(("RTB_PG_material", name) for name in typed.split()),
+        *(("RTB_PG_texture", name) for name in ("even", "odd")),
         ("RTB_PG_light", "spectrum"),
-    ]
+    }
 
 
-@pytest.mark.parametrize("menu", ["reflectance", "light", "world", "emission", "cell"])
-def test_every_menu_offers_the_library_first(material, menu):
+@pytest.mark.parametrize("field", ["REFLECTANCE", "ETA", "REFLECTANCE_ODD", "LIGHT", "WORLD", "CELL"])
+def test_the_menu_offers_the_library_first_to_every_field(material, extension, field):
+    menus = sys.modules[f"{extension}.panels.spectrum_menus"]
     bpy.context.scene.rtb.set_conditions(["paint"], [["0.1"]])
-    kind, layout = getattr(bpy.types, f"RTB_MT_{menu}"), RecordingLayout()
-    kind.draw(
-        SimpleNamespace(layout=layout, field=kind.field, draw_variables=variables_of(kind)), bpy.context
+    kind, layout = menus.RTB_MT_spectrum, RecordingLayout()
+    menu = SimpleNamespace(
+        layout=layout, draw_variables=lambda *drawn: kind.draw_variables(SimpleNamespace(), *drawn)
     )
-    assert layout.names("operator")[0] == "rtb.use_library_spectrum"
-    assert ("rtb.use_variable" in layout.names("operator")) == (menu != "cell")
-
-
-def variables_of(kind):
-    """Return a menu's drawing of variables, for a stand-in of it."""
-    return lambda layout, settings: kind.draw_variables(SimpleNamespace(field=kind.field), layout, settings)
+    kind.draw(menu, SimpleNamespace(scene=bpy.context.scene, rtb_field=field))
+    offered = layout.names("operator")
+    assert offered[0] == "rtb.use_library_spectrum"
+    assert ("rtb.use_variable" in offered) == (field != "CELL")
+    assert ("rtb.use_daylight" in offered) == (field != "ETA"), "an index is no light"
 
 
 def test_a_curve_is_made_once_and_drawing_only_looks_it_up(material, previews, monkeypatch):

@@ -28,7 +28,7 @@ def looks(driver: Driver, folder: Path):
     yield from dialog(driver, bpy.ops.rtb.fill_from_library, "conditions-library")
     yield from dialog(driver, bpy.ops.rtb.fill_random, "conditions-random")
     yield from dialog(driver, partial(bpy.ops.wm.call_menu, name="RTB_MT_conditions"), "conditions-menu")
-    yield from dialog(driver, partial(bpy.ops.wm.call_menu, name="RTB_MT_cell"), "spectrum-menu")
+    yield from dialog(driver, partial(bpy.ops.wm.call_menu, name="RTB_MT_spectrum"), "spectrum-menu")
     yield from scroll_many_rows(driver)
 
 

@@ -26,6 +26,7 @@ FLOORS = {
     "rtb_addon/colorimetry.py": 3,
     "rtb_addon/colour_difference.py": 3,
     "rtb_addon/observers.py": 3,
+    "rtb_addon/photometry.py": 3,
     "rtb_addon/spectral_image.py": 3,
     "rtb_addon/layers.py": 3,
     "rtb_addon/swatches.py": 3,

@@ -1,0 +1,46 @@
+"""A metal by its name: both of its measured indices at once."""
+
+from __future__ import annotations
+
+import bpy
+
+from ..rtb_addon.blender.fields import owner_of
+from ..rtb_addon.blender.redrawing import redraw_panels
+from ..rtb_addon.errors import RecipeError
+
+_items: list[tuple[str, str, str, int]] = []  # Blender reads them where we keep them
+
+
+def _metals(operator, context):
+    if not _items:
+        from ..rtb_addon.spectra.library import metals  # brings numpy, which enabling need not wait for
+
+        for number, name in enumerate(metals()):
+            symbol, word = name.removeprefix("Metals/").split(" ", 1)
+            _items.append((name, f"{word.title()} ({symbol})", "", number))
+    return _items
+
+
+class RTB_OT_use_metal(bpy.types.Operator):
+    """Take a metal's measured index and extinction"""
+
+    bl_idname = "rtb.use_metal"
+    bl_label = "Metal"
+    bl_options = {"REGISTER", "UNDO", "INTERNAL"}
+    bl_property = "metal"
+
+    metal: bpy.props.EnumProperty(name="Metal", items=_metals)
+
+    def invoke(self, context, event):
+        context.window_manager.invoke_search_popup(self)
+        return {"FINISHED"}
+
+    def execute(self, context):
+        try:
+            settings = owner_of(context, "ETA")
+        except RecipeError as error:
+            self.report({"ERROR"}, str(error))
+            return {"CANCELLED"}
+        settings.eta, settings.k = f"{self.metal} eta", f"{self.metal} k"
+        redraw_panels()
+        return {"FINISHED"}

@@ -1,0 +1,86 @@
+"""A spectrum as numbers in a table."""
+
+from __future__ import annotations
+
+import bpy
+
+from ..rtb_addon.blender.fields import FIELDS, owner_of, typed_in
+from ..rtb_addon.blender.folders import blend_folder
+from ..rtb_addon.errors import RecipeError
+from .spectrum_verbs import SpectrumVerb
+
+MOST = 40  # rows of a dialog; finer spectra are files
+
+
+class RTB_PG_sample(bpy.types.PropertyGroup):
+    """One row of a spectrum's table."""
+
+    wavelength: bpy.props.FloatProperty(
+        name="Wavelength (nm)", default=550.0, min=1.0, precision=1, step=1000
+    )
+    value: bpy.props.FloatProperty(name="Value", precision=4, step=1)
+
+
+def _fitted(operator, _context) -> None:
+    """Let there be as many rows as are asked for, new ones beyond the last."""
+    samples = operator.samples
+    while len(samples) > operator.count:
+        samples.remove(len(samples) - 1)
+    while len(samples) < operator.count:
+        last = samples[-1] if samples else None
+        wavelength, value = (380.0, 0.5) if last is None else (last.wavelength + 20, last.value)
+        new = samples.add()
+        new.wavelength, new.value = wavelength, value
+
+
+class RTB_OT_use_table(SpectrumVerb, bpy.types.Operator):
+    """A spectrum as wavelengths and values, straight lines between them"""
+
+    bl_idname = "rtb.use_table"
+    bl_label = "Table"
+
+    count: bpy.props.IntProperty(name="Samples", default=0, min=0, max=MOST, update=_fitted)
+    samples: bpy.props.CollectionProperty(type=RTB_PG_sample)
+
+    def invoke(self, context, event):
+        try:
+            spectrum = self.now(context)
+        except RecipeError as error:
+            self.report({"ERROR"}, str(error))
+            return {"CANCELLED"}
+        self.samples.clear()
+        for wavelength, value in zip(spectrum.wavelengths, spectrum.values, strict=True):
+            sample = self.samples.add()
+            sample.wavelength, sample.value = wavelength, value
+        self.count = len(self.samples)
+        return context.window_manager.invoke_props_dialog(self, width=260, confirm_text="Use")
+
+    def now(self, context):
+        """Return what the field says now, in no more rows than fit."""
+        # numpy takes longer to come than all else that enabling the extension waits for.
+        from ..rtb_addon.spectra import Spectrum
+        from ..rtb_addon.spectra.spoken import spectrum_from
+
+        group = owner_of(context, self.field)
+        text = typed_in(group, FIELDS[self.field].name, context.scene.rtb)
+        spectrum = spectrum_from(text, folder=blend_folder())
+        if len(spectrum.wavelengths) <= MOST:
+            return spectrum
+        places = [*range(380, 781, 20)]
+        return Spectrum.of(places, spectrum.at(places))
+
+    def draw(self, context):
+        layout = self.layout
+        layout.prop(self, "count")
+        grid = layout.grid_flow(row_major=True, columns=2, even_columns=True, align=True)
+        for sample in self.samples:
+            grid.prop(sample, "wavelength", text="")
+            grid.prop(sample, "value", text="")
+
+    def text(self, context, owner):
+        rows = sorted((each.wavelength, each.value) for each in self.samples)
+        if not rows:
+            raise RecipeError("the table is empty, a spectrum needs at least one sample")
+        if len({wavelength for wavelength, _ in rows}) < len(rows):
+            raise RecipeError("two rows of the table have the same wavelength, give each its own")
+        return " ".join(f"{wavelength:.6g}:{value:.6g}" for wavelength, value in rows)
