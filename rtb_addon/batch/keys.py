@@ -28,7 +28,7 @@ from ..recipe.remodeler import digest_of
 from ..scene.adjustments import Adjustments
 
 # Raised when the way from a folder to a RenderScene changes what comes out.
-ENGINE = 2
+ENGINE = 3
 # Where something was said, or that it was odd, does not change what was said.
 _UNSAID = {"file", "line", "remarks"}
 # A family says them once for all its conditions, or nearly.

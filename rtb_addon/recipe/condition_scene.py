@@ -12,7 +12,7 @@ from ..errors import RecipeError
 from ..layers import ERROR
 from ..renderers.fidelity import TABLE, unsupported
 from ..renderers.interface import Renderer
-from ..renderers.native_lines import refused
+from ..renderers.native_lines import refused, scene_with
 from ..scene.adjustments import Adjustments, NativeLine
 from ..scene.document import Scene
 from ..scene.render_scene import RenderScene
@@ -80,13 +80,18 @@ def refuse_layers(renderer: Renderer, options: RecipeOptions) -> None:
         raise RecipeError(f"layers are {wanted}, the renderer {renderer.name} knows none, leave them empty")
 
 
-def refused_lines(recipe: Recipe, condition: Condition, lines: Sequence[NativeLine]) -> list[RecipeError]:
-    """Return what is wrong with a condition's native lines, where a renderer of ours is to read them."""
+def refusals(recipe: Recipe, condition: Condition, resolved: Resolved) -> list[RecipeError]:
+    """Return what a renderer of ours cannot render of a condition's scene as its native lines change it."""
     name = recipe.options_of(condition).renderer
     if not any(name in row for row in TABLE.values()):
         return []
-    title = "Mitsuba" if name == "mitsuba" else name
-    return list(refused(remaining_lines(recipe, condition, lines), title))
+    lines, title = (
+        remaining_lines(recipe, condition, resolved.extras),
+        "Mitsuba" if name == "mitsuba" else name,
+    )
+    if wrong := list(refused(resolved.scene, lines, title)):
+        return [*map(RecipeError, lacks(name, resolved.scene)), *wrong]
+    return [*map(RecipeError, lacks(name, scene_with(resolved.scene, lines, title)))]
 
 
 def remaining_lines(recipe: Recipe, condition: Condition, lines: Sequence[NativeLine]) -> list[NativeLine]:

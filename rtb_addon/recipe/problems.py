@@ -10,9 +10,8 @@ from ..consent import has_consent
 from ..errors import RecipeError
 from .condition_scene import (
     adjustments_of,
-    lacks,
     refuse_layers,
-    refused_lines,
+    refusals,
     remodeled_parent,
     renderer_of,
     resolve_condition,
@@ -119,5 +118,4 @@ def _condition_findings(recipe: Recipe, condition: Condition, foresight: Foresig
         yield Finding(error)
         return
     yield from (Finding(None, sentence) for sentence in resolved.warnings)
-    yield from (Finding(RecipeError(sentence)) for sentence in lacks(name, resolved.scene))
-    yield from map(Finding, refused_lines(recipe, condition, resolved.extras))
+    yield from map(Finding, refusals(recipe, condition, resolved))

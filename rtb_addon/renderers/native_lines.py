@@ -1,20 +1,16 @@
-"""
-Lines of a Mitsuba block that say how a picture is computed, in words that every renderer understands.
-
-A line is ``id:category:type``, which declares, or ``id:property.type = value``; RenderToolbox3 took
-any of ``. : $`` between the parts (formats.md, scene targets).
-"""
+"""Lines of a Mitsuba block that say how a picture is taken, in words that every renderer understands."""
 
 from __future__ import annotations
 
-import re
 from collections.abc import Iterable, Iterator
 from dataclasses import replace
-from typing import NamedTuple
+from typing import Any
 
 from ..errors import RecipeError
-from ..scene.render_scene import Integrator
+from ..scene.render_scene import Integrator, RenderScene
 from .interface import NativeLine
+from .native_optics import changed_optics, cropped, declared_optics
+from .native_settings import NativeSetting, count_of, parse_native_line
 
 # Our own, and those of Mitsuba 0.5 that come to the same picture as path, with other noise.
 INTEGRATORS = {
@@ -41,107 +37,70 @@ _NOISE = (
     *("pixelsamples", "dimension", "scramble", "seed"),
 )
 # Switches that every renderer here has off.
-_OFF = ("ensureenergyconservation", "strictnormals", "hideemitters")
+_OFF = ("ensureenergyconservation", "strictnormals", "hideemitters", "highqualityedges", "sampleborder")
 # Paths without an end are followed this far; beyond it there is hardly any light left, in Mitsuba's counting.
 ENDLESS = 16
 
 
-class NativeSetting(NamedTuple):
-    """
-    A native line taken apart.
-
-    Parameters
-    ----------
-    id : of the object that it declares or changes
-    name : category of a declaration, else the property
-    kind : type of the object or of the value
-    value : None in a declaration
-    """
-
-    id: str
-    name: str
-    kind: str
-    value: str | None
-
-    @property
-    def is_sampler(self) -> bool:
-        """Whether this is about a sampler; RenderToolbox3 names them CAMERA_sampler."""
-        return self.name == "sampler" or self.id == "sampler" or self.id.endswith("_sampler")
-
-    @property
-    def is_integrator(self) -> bool:
-        """Whether this is about the integrator."""
-        return self.name == "integrator" or self.id == "integrator"
-
-
-def parse_native_line(line: NativeLine) -> NativeSetting:
-    """Return the parts of a native line; RecipeError when it has too few or too many."""
-    target, equals, value = line.text.partition("=")
-    parts = [part.strip() for part in re.split(r"[.:$]", target)]
-    if len(parts) == 3 or (len(parts) == 2 and equals):
-        return NativeSetting(
-            parts[0], parts[1], parts[2] if len(parts) == 3 else "", value.strip() if equals else None
-        )
-    raise RecipeError(
-        f"cannot read '{line.text}', want id:category:type or id:property.type = value", line.file, line.line
-    )
-
-
-def integrator_with(integrator: Integrator, lines: Iterable[NativeLine], renderer: str) -> Integrator:
-    """Return the integrator as native lines change it; RecipeError for a line with no meaning here."""
+def scene_with(scene: RenderScene, lines: Iterable[NativeLine], renderer: str) -> RenderScene:
+    """Return a scene as native lines change it; RecipeError for a line with no meaning here."""
+    line = None
     for line in lines:
-        changes = _changes(parse_native_line(line), line, integrator)
-        if changes is None:
-            raise RecipeError(
-                f"{renderer} has no use for '{line.text}', it knows the integrators path and direct,"
-                " their maxDepth and a sampler's sampleCount",
-                line.file,
-                line.line,
-            )
-        integrator = replace(integrator, **changes)
-    return integrator
+        scene = _changed(scene, line, renderer)
+    return scene if line is None else replace(scene, film=cropped(scene.film, line))
 
 
-def refused(lines: Iterable[NativeLine], renderer: str) -> Iterator[RecipeError]:
+def refused(scene: RenderScene, lines: Iterable[NativeLine], renderer: str) -> Iterator[RecipeError]:
     """Yield what is wrong with native lines that a renderer would refuse when it translates a scene."""
+    line = None
     for line in lines:
         try:
-            integrator_with(Integrator(), [line], renderer)
+            scene = _changed(scene, line, renderer)
+        except RecipeError as error:
+            yield error
+    if line is not None:
+        try:
+            cropped(scene.film, line)
         except RecipeError as error:
             yield error
 
 
-def _changes(setting: NativeSetting, line: NativeLine, integrator: Integrator) -> dict | None:
+def _changed(scene: RenderScene, line: NativeLine, renderer: str) -> RenderScene:
+    if (changes := _changes(parse_native_line(line), line, scene)) is None:
+        raise RecipeError(
+            f"{renderer} has no use for '{line.text}', it knows the integrators path and direct and their"
+            " maxDepth, a sampler's sampleCount, a thin lens, filters and a film's crop",
+            line.file,
+            line.line,
+        )
+    return replace(scene, **changes)
+
+
+def _changes(setting: NativeSetting, line: NativeLine, scene: RenderScene) -> dict[str, Any] | None:
+    """Return what a line changes of a scene, None where it has no meaning."""
     if setting.value is None:
-        return _declared(setting, integrator)
-    name = setting.name.lower().replace("_", "")
-    if setting.is_integrator and name == "maxdepth":
-        return {"depth": ENDLESS if setting.value == "-1" else _count(setting, line)}
-    if setting.is_sampler and name == "samplecount":
-        return {"samples": _count(setting, line)}
-    if name in _NOISE and (setting.is_integrator or setting.is_sampler):
-        return {}
-    return {} if name in _OFF and setting.value.lower() == "false" else None
+        return _declared(setting, scene)
+    word = setting.word
+    if setting.is_integrator and word == "maxdepth":
+        depth = ENDLESS if setting.value == "-1" else count_of(setting, line)
+        return {"integrator": replace(scene.integrator, depth=depth)}
+    if setting.is_sampler and word == "samplecount":
+        return {"integrator": replace(scene.integrator, samples=count_of(setting, line))}
+    if (changed := changed_optics(setting, line, scene)) is not None:
+        return changed
+    same = word in _NOISE and (setting.is_integrator or setting.is_sampler)
+    return {} if same or (word in _OFF and setting.value.lower() == "false") else None
 
 
-def _declared(setting: NativeSetting, integrator: Integrator) -> dict | None:
+def _declared(setting: NativeSetting, scene: RenderScene) -> dict[str, Any] | None:
     if setting.name == "integrator" and setting.kind in INTEGRATORS:
-        kind = INTEGRATORS[setting.kind]
-        # A recipe of direct light says nothing about how long paths are; Mitsuba's have no end.
-        longer = kind == "path" and integrator.kind == "direct"
-        return {"kind": kind, "depth": ENDLESS} if longer else {"kind": kind}
+        return {"integrator": _integrator(INTEGRATORS[setting.kind], scene.integrator)}
     if setting.name == "sampler" and setting.kind in SAMPLERS:
         return {}
-    return {} if (setting.name, setting.kind) == ("rfilter", "box") else None
+    return declared_optics(setting, scene)
 
 
-def _count(setting: NativeSetting, line: NativeLine) -> int:
-    try:
-        count = int(setting.value or "")
-    except ValueError:
-        count = 0
-    if count < 1:
-        raise RecipeError(
-            f"{setting.name} is '{setting.value}', want a whole number above 0", line.file, line.line
-        )
-    return count
+def _integrator(kind: Any, integrator: Integrator) -> Integrator:
+    # A recipe of direct light says nothing about how long paths are; Mitsuba's have no end.
+    longer = kind == "path" and integrator.kind == "direct"
+    return replace(integrator, kind=kind, depth=ENDLESS if longer else integrator.depth)

@@ -77,7 +77,9 @@ GLOSS = {
 }
 NO_EARTH = {EVERY: (Needed(NEVER, EARTH),)}
 BUMPS = {EVERY: (Needed("material bumpmap", "bumpmap"),), **GLOSS}
-LENS = {EVERY: (Needed("camera thinlens", "thinlens"), Needed("filter gaussian", "gaussian"))}
+BLURRED = (Needed("filter gaussian", "the reconstruction filter is gaussian"),)
+# Of filters there is one width each.
+LENS = {EVERY: BLURRED, "2xFilter": (Needed(NEVER, "stddev of the filter gaussian is 1, only 0.5 is known"),)}
 # The old scene's camera has a perspective, which these mappings make parallel.
 WARD = {EVERY: (Needed("material anisoward", "anisoward"), Needed(NEVER, "orthographic"))}
 NO_DAYLIGHT = {EVERY: (Needed(NEVER, DAYLIGHTS[0]),)}
@@ -185,7 +187,7 @@ Mitsuba-path lens {
 """
 OUR_NEEDS = {
     "gloss": (Needed("material anisoward", "anisoward"),),
-    "lens": (Needed("camera thinlens", "M.txt:22: "), Needed("camera thinlens", "thinlens")),
+    "lens": (Needed("lens thin", "has a lens of some width"),),
     "lost": (Needed(NEVER, "there is no spectrum file lost.spd"),),
 }
 

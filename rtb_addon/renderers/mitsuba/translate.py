@@ -19,7 +19,7 @@ from ...errors import RecipeError, RenderingError
 from ...files import write_bytes
 from ...scene.render_scene import Integrator, Mesh, RenderScene, Shape
 from ..interface import Extras
-from ..native_lines import integrator_with
+from ..native_lines import scene_with
 from ..ply import write_mesh
 from .camera_xml import matrix, sensor
 from .environment_xml import environment
@@ -34,14 +34,15 @@ from .spectrum_xml import element, format_spectrum, range_for
 def translate(scene: RenderScene, extras: Extras, folder: Path, name: str) -> Path:
     """Write NAME.xml and the meshes it names into a folder, and return the XML file."""
     path = folder / f"{name}.xml"
-    root = scene_xml(scene, integrator_with(scene.integrator, extras, "Mitsuba"), folder)
+    root = scene_xml(scene_with(scene, extras, "Mitsuba"), folder)
     Xml.indent(root)
     write_bytes(path, Xml.tostring(root, encoding="utf-8", xml_declaration=True))
     return path
 
 
-def scene_xml(scene: RenderScene, integrator: Integrator, folder: Path) -> Xml.Element:
+def scene_xml(scene: RenderScene, folder: Path) -> Xml.Element:
     """Return the scene as an element; writes the meshes into the folder."""
+    integrator = scene.integrator
     if integrator.depth < 1 or integrator.samples < 1:
         raise RecipeError(
             f"depth {integrator.depth} and {integrator.samples} samples, give 1 or more of each"

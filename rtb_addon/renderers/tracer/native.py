@@ -10,7 +10,7 @@ from __future__ import annotations
 import json
 import os
 from collections.abc import Mapping
-from dataclasses import asdict, replace
+from dataclasses import asdict
 from pathlib import Path
 from typing import Any
 
@@ -34,7 +34,7 @@ from ...scene.render_scene import (
 from ...spectra import Bands, Spectrum, Unit
 from ..fidelity import unsupported
 from ..interface import Extras
-from ..native_lines import integrator_with
+from ..native_lines import scene_with
 from ..ply import read_mesh, write_mesh
 from .checks import check
 
@@ -44,10 +44,10 @@ _FORMAT = "RenderToolbox tracer scene"
 
 def translate(scene: RenderScene, extras: Extras, folder: Path, name: str, renderer: str = "tracer") -> Path:
     """Write a scene as folder/NAME.json, its meshes in folder/meshes, and return that file."""
+    scene = scene_with(scene, extras, renderer)
     if lacking := unsupported(scene, renderer):
         raise RecipeError(lacking[0])
     check(scene)
-    scene = replace(scene, integrator=integrator_with(scene.integrator, extras, renderer))
     path = folder / f"{name}.json"
     write_text(path, _text(_scene(scene, folder)) + "\n")
     return path
