@@ -17,23 +17,29 @@ def direction(polar, turn=0.0):
     return np.array([[np.sin(a) * np.cos(b)], [np.sin(a) * np.sin(b)], [np.cos(a)]])
 
 
-def met(back, n, side=1.0):
-    """Return a meeting of n paths, that came from a (3, 1 or n) direction, with a level surface."""
-    up = np.tile([[0.0], [0.0], [1.0]], n)
-    x = np.tile([[1.0], [0.0], [0.0]], n)
-    places = Places(up, up, np.zeros((3, n)), np.zeros(n), np.full(n, side), x)
-    return Meeting(np.zeros(n, int), places, np.broadcast_to(-back, (3, n)))
+def met(back, n, side=1.0, model=None):
+    """Return a meeting of n paths, that came from a (3, 1 or n) direction, with a level place of a model."""
+    up, x, y = (np.tile(np.eye(3)[:, k : k + 1], n) for k in (2, 0, 1))
+    sides = np.full(n, side)
+    places = Places(up, up, np.zeros((3, n)), np.zeros(n), sides, x, np.full((2, n), 0.5), y)
+    meeting = Meeting(np.zeros(n, int), places, np.broadcast_to(-back, (3, n)))
+    return meeting if model is None else model.meeting(meeting)
 
 
-def model_of(material):
-    """Return the tracer's model of one material."""
-    ((model, _, _),) = Materials({material.id: material}, Film(bands=BANDS)).sorted(np.zeros(1, np.int32))
+def model_of(material, others=(), textures=()):
+    """Return the tracer's model of one material, that may be made of others."""
+    materials = {one.id: one for one in (material, *others)}
+    made = Materials(materials, Film(bands=BANDS), {one.id: one for one in textures})
+    numbers = np.zeros(1, np.int32)
+    if made.mixtures is not None:
+        numbers = made.mixtures.one_of(numbers, np.zeros(1))
+    ((model, _, _),) = made.sorted(numbers)
     return model
 
 
 def evaluate(model, back, towards, side=1.0):
     """Return f cos per band and the density for (3, n) directions."""
-    meeting = met(back, towards.shape[1], side)
+    meeting = met(back, towards.shape[1], side, model)
     value, density = model.evaluate(meeting, np.arange(towards.shape[1]), towards)
     shared = model.shared(meeting)
     return value * (1 if shared is None else shared), density
@@ -66,7 +72,7 @@ def assert_samples_as_it_says(model, back, side=1.0, n=100_000, seed=0):
     expected count together.
     """
     u, v = np.random.default_rng(seed).random((2, n))
-    onward = model.scattered(met(back, n, side), u, v)
+    onward = model.scattered(met(back, n, side, model), u, v)
     kept = np.isfinite(onward.density) & (onward.density > 0)
     np.testing.assert_allclose(dot(onward.directions, onward.directions), 1, rtol=1e-9)
     # Straight down, narrow lobes are around the poles and the same all round.

@@ -19,6 +19,7 @@ _MATERIALS = {
     "extIOR": (0.1, 10),
     "weight": (0, 1),
     "opacity": (0, 1),
+    "scale": (-1e6, 1e6),
 }
 _TEXTURES = {f"{name}{axis}": (-1e6, 1e6) for name in ("checksPer", "offset", "scale") for axis in "UV"}
 _TEXTURES["gamma"] = (-1, 10)
@@ -41,6 +42,7 @@ def check(scene: RenderScene) -> None:
         _check_numbers(f"material {material.id}", material.parameters, _MATERIALS)
         _check_choices(material)
         _check_references(material, scene.materials)
+        _check_relief(material, scene.textures)
     for texture in scene.textures.values():
         _check_texture(texture)
     for shape in scene.shapes:
@@ -90,9 +92,18 @@ def _check_references(material: Material, materials: Mapping[str, Material]) -> 
             here.extend(parts(materials[id]))
 
 
+def _check_relief(material: Material, textures: Mapping[str, Texture]) -> None:
+    """Raise RecipeError for a relief of what is no picture."""
+    if (id := str(material.parameters.get("textureID", ""))) and textures[id].kind != "bitmap":
+        kind = textures[id].kind
+        raise RecipeError(f"texture {id} is a {kind}, whose edges have no slope, give {material.id} a bitmap")
+
+
 def _texture_of(id: str, materials: Mapping[str, Material]) -> str:
     """Return the id of a texture that a material or one of its parts uses, or nothing."""
-    used = [one.texture for one in materials[id].parameters.values() if isinstance(one, TextureUse)]
+    said = materials[id].parameters
+    used = [one.texture for one in said.values() if isinstance(one, TextureUse)]
+    used.append(str(said.get("textureID", "")))
     inside = (_texture_of(part, materials) for part in parts(materials[id]))
     return next((each for each in (*used, *inside) if each), "")
 

@@ -164,7 +164,8 @@ def _met_surfaces(
     meetings = []
     for model, where, row in world.materials.sorted(material):
         theirs, some = paths.only(rows[where]), hits.only(rows[where])
-        met = Meeting(row, world.surfaces.places(some, theirs.directions), theirs.directions, theirs.band)
+        places = world.surfaces.places(some, theirs.directions)
+        met = model.meeting(Meeting(row, places, theirs.directions, theirs.band))
         # In place even where nothing was left out: nobody asks for the paths as they came.
         meetings.append((model, theirs._replace(carried=carrier.met(theirs, model, met)), met))
     return meetings

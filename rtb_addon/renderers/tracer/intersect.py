@@ -20,7 +20,7 @@ from ...spectra import FloatArray
 from .bvh import Bvh
 from .directions import cross, dot, normalised
 from .kernels import Embree, Hits, Kernel
-from .texture_space import along_u, corner_uvs
+from .texture_space import along_uv, corner_uvs
 
 # How far a ray starts off a surface, per size of the numbers in it: 16 units of single precision.
 _LIFT = 2.0**-20
@@ -86,7 +86,7 @@ class Places(NamedTuple):
     start : (3, n) points [m] a little above, which single precision tells from the surface
     lift : (n,) how far above [m]
     side : (n,) 1 where the ray came from the side that the triangle's own normal points to, else -1
-    tangents : (3, n) vectors along which U grows, or None where no material asks for them
+    tangents, across : (3, n) vectors dp/du and dp/dv [m], or None where no material asks for them
     uvs : (2, n) texture coordinates, or None where no material asks for them
     """
 
@@ -97,6 +97,7 @@ class Places(NamedTuple):
     side: FloatArray
     tangents: FloatArray | None = None
     uvs: FloatArray | None = None
+    across: FloatArray | None = None
 
     @property
     def behind(self) -> FloatArray:
@@ -113,6 +114,7 @@ class Places(NamedTuple):
             self.side[rows],
             None if self.tangents is None else self.tangents.take(rows, axis=1),
             None if self.uvs is None else self.uvs.take(rows, axis=1),
+            None if self.across is None else self.across.take(rows, axis=1),
         )
 
 
@@ -133,7 +135,7 @@ class Surfaces:
 
     Parameters
     ----------
-    oriented : whether some material asks for the direction in which U grows
+    oriented : whether some material asks for the directions in which U and V grow
     textured : whether some material asks for texture coordinates
     """
 
@@ -156,7 +158,7 @@ class Surfaces:
         self.normals = normals.astype(np.float32)
         self._smooth = _shading_normals(shapes, self.normals)
         self._uvs = corner_uvs(shapes) if textured else None
-        self._tangents = along_u(shapes, normals, one, two) if oriented else None
+        self._tangents = along_uv(shapes, normals, one, two) if oriented else None
         self.lift = np.abs(self.corners).max(axis=(0, 1), initial=0) * _LIFT
         # One table, since one gather is quicker than many: a corner, two edges, normal and lift.
         table = np.concatenate([self.corners[0], one, two, normals, self.lift[None]])
@@ -190,14 +192,16 @@ class Surfaces:
         if self._smooth is not None:
             a, b, c = self._smooth.take(hits.triangle, axis=2)
             normals = side * normalised(a + hits.u * (b - a) + hits.v * (c - a))
-        tangents = None if self._tangents is None else self._tangents.take(hits.triangle, axis=1)
+        tangents, across = None, None
+        if self._tangents is not None:
+            tangents, across = self._tangents.take(hits.triangle, axis=2)
         uvs = None
         if self._uvs is not None:
             a, b, c = self._uvs.take(hits.triangle, axis=2)
             uvs = a + hits.u * (b - a) + hits.v * (c - a)
         # A copy, for a view would keep the whole of rows.
         lift = rows[12].copy()
-        return Places(faces, normals, points + faces * lift, lift, side, tangents, uvs)
+        return Places(faces, normals, points + faces * lift, lift, side, tangents, uvs, across)
 
     def radius(self) -> float:
         """Return the radius [m] of a sphere around everything; 1 when there is nothing."""

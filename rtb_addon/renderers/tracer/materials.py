@@ -20,12 +20,13 @@ from .glass import Glass, ThinGlass
 from .matte import Matte
 from .meeting import Model
 from .metal import RoughMetal, SmoothMetal
-from .mixtures import mixtures
+from .mixtures import NOTHING, Part, mixtures, parts_of
 from .plastic import Plastic, RoughPlastic
+from .relief import relieved
 from .rough_glass import RoughGlass
 from .smooth import Mirror, Nothing
 from .tables import Palette, table
-from .textures import lookup
+from .textures import Lookup, lookup
 from .ward import Ward
 
 # Vocabulary's word, and the same with a roughness of 0 where that is another kind -> what makes the kind.
@@ -79,17 +80,23 @@ class Materials:
     def __init__(
         self, materials: Mapping[str, Material], film: Film, textures: Mapping[str, Texture] | None = None
     ) -> None:
+        textures = textures or {}
         self.numbers = {id: number for number, id in enumerate(materials)}
-        simple = [*materials.values(), Material("", "nothing", {})]
+        reliefs = {part: None for id in materials for part in parts_of(id, materials) if part.around}
+        all_parts = [*map(Part, materials), NOTHING, *reliefs]
+        self.mixtures = mixtures(materials, {part: number for number, part in enumerate(all_parts)})
+        simple = [materials.get(part.id, Material("", "nothing", {})) for part in all_parts]
         self.reflects = np.array([_reflects(one, film) for one in simple], bool)
-        self.oriented = any(_oriented(one) for one in simple)
-        self.mixtures = mixtures(materials)
-        kinds = [_kind(one) for one in simple]
-        present = [kind for kind in dict.fromkeys(kinds) if kind[0] in KINDS]
-        members = {kind: [one for one in simple if _kind(one) == kind] for kind in present}
-        used = {id: lookup(texture, film) for id, texture in (textures or {}).items()}
-        self.textured = bool(used)
-        self._models = [KINDS[kind[0]](members[kind], Palette(film, used)) for kind in present]
+        self.oriented = bool(reliefs) or any(_oriented(one) for one in simple)
+        palette = Palette(film, _lookups(simple, textures, film))
+        self.textured = bool(palette.textures or reliefs)
+        kinds = [_kind(one, part) for one, part in zip(simple, all_parts, strict=True)]
+        present = [kind for kind in dict.fromkeys(kinds) if kind.word in KINDS]
+        self._models: list[Model] = []
+        for kind in present:
+            members = [one for one, its in zip(simple, kinds, strict=True) if its == kind]
+            around = [materials[id] for id in kind.around]
+            self._models.append(relieved(KINDS[kind.word](members, palette), around, textures))
         self._kind = np.array([present.index(kind) if kind in present else -1 for kind in kinds], np.int32)
         self._row = np.array([kinds[:number].count(kind) for number, kind in enumerate(kinds)], np.int32)
         self.parts = any(model.parts for model in self._models)
@@ -120,13 +127,30 @@ def _plain(models: Sequence[Model]) -> Plain | None:
     return Plain(np.concatenate(spectra), dict(zip(models, first.tolist(), strict=True)))
 
 
-def _kind(material: Material) -> tuple[str, str]:
-    """Return which of KINDS a material is (blends and masks are none) and how its slopes are distributed."""
+class _Kind(NamedTuple):
+    """What materials of one Model have in common: a word of KINDS, the distribution of slopes, reliefs."""
+
+    word: str
+    slopes: str
+    around: tuple[str, ...]
+
+
+def _kind(material: Material, part: Part) -> _Kind:
+    """Return which kind a material is; the word of what is made of others is none of KINDS."""
     said = material.parameters
     word = _SMOOTH.get(material.model, material.model) if said.get("roughness") == 0 else material.model
-    disperses = any(_varies(said.get(name)) for name in ("intIOR", "extIOR"))
-    slopes = str(said.get("distribution", "")) if "roughness" in said and said["roughness"] != 0 else ""
-    return f"dispersing {word}" if disperses else word, slopes
+    if any(_varies(said.get(name)) for name in ("intIOR", "extIOR")):
+        word = f"dispersing {word}"
+    return _Kind(word, str(said.get("distribution", "")) if said.get("roughness") else "", part.around)
+
+
+def _lookups(
+    materials: Sequence[Material], textures: Mapping[str, Texture], film: Film
+) -> Mapping[str, Lookup]:
+    """Return the textures whose spectra some material has, ready to be asked."""
+    values = (value for one in materials for value in one.parameters.values())
+    used = dict.fromkeys(value.texture for value in values if isinstance(value, TextureUse))
+    return {id: lookup(textures[id], film) for id in used}
 
 
 def _varies(value: Value | None) -> bool:

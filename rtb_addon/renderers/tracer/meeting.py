@@ -8,7 +8,6 @@ the spectra of a scene never decide where a path goes.
 from __future__ import annotations
 
 from abc import ABC, abstractmethod
-from collections.abc import Sequence
 from dataclasses import dataclass
 from functools import cached_property
 from typing import TYPE_CHECKING, NamedTuple
@@ -16,13 +15,13 @@ from typing import TYPE_CHECKING, NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from ...scene.render_scene import IntArray, Material
+from ...scene.render_scene import IntArray
 from ...spectra import FloatArray
 from .directions import Frame
 from .intersect import Places
 
 if TYPE_CHECKING:
-    from .tables import Palette
+    pass
 
 
 @dataclass(frozen=True, eq=False)
@@ -36,12 +35,14 @@ class Meeting:
     places : where that was
     directions : (3, n) unit vectors along which the paths came
     band : (n,) int array, the paths' Paths.band; None where all paths are of all bands
+    under : the same as the material under a relief sees it, None where there is no relief
     """
 
     row: IntArray
     places: Places
     directions: FloatArray
     band: IntArray | None = None
+    under: Meeting | None = None
 
     @cached_property
     def frame(self) -> Frame:
@@ -94,8 +95,9 @@ class Model(ABC):
     transmits = False
     parts = False
 
-    @abstractmethod
-    def __init__(self, materials: Sequence[Material], palette: Palette) -> None: ...
+    def meeting(self, met: Meeting) -> Meeting:
+        """Return a meeting as the other methods want it."""
+        return met
 
     def shared(self, met: Meeting) -> FloatArray | None:
         """Return the (n, bands) factor of all that a surface scatters, None where there is none."""

@@ -1,5 +1,5 @@
 """
-Materials that are made of others: blends and masks.
+Materials that are made of others: blends, masks, and what has a relief around it.
 
 A path that meets one goes on as if it had met one of the parts, which one by chance: the mean over many
 paths is the weighted sum, and each part is sampled as well as it would be alone.
@@ -7,12 +7,13 @@ paths is the weighted sum, and each part is sampled as well as it would be alone
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping
+from collections.abc import Mapping
+from typing import NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
 
-from ...scene.render_scene import Material
+from ...scene.render_scene import Material, Value
 from ...spectra import FloatArray
 
 
@@ -39,34 +40,46 @@ class Mixtures:
         return self._parts[material, part]
 
 
-def mixtures(materials: Mapping[str, Material]) -> Mixtures | None:
-    """Return what materials are made of, nothing being last; None where none is made of others."""
-    if not any(one.model in ("blend", "mask") for one in materials.values()):
-        return None
-    numbers = {id: number for number, id in enumerate([*materials, ""])}
-    parts: list[dict[int, float]] = []
-    for id in numbers:
-        shares: dict[int, float] = {}
-        for part, share in _parts(id, materials):
-            shares[numbers[part]] = shares.get(numbers[part], 0.0) + share
-        parts.append(shares)
-    return Mixtures(parts)
+class Part(NamedTuple):
+    """What a material is made of: the id of one that is made of no others, and of the reliefs around it."""
+
+    id: str
+    around: tuple[str, ...] = ()
 
 
-def _parts(id: str, materials: Mapping[str, Material]) -> Iterator[tuple[str, float]]:
-    """Yield the ids of what a material is made of in the end, and the share of each; nothing has none."""
-    model = materials[id].model if id else ""
-    said = materials[id].parameters if id else {}
+# What masks let through.
+NOTHING = Part("")
+
+
+def parts_of(id: str, materials: Mapping[str, Material], around: tuple[str, ...] = ()) -> dict[Part, float]:
+    """Return what a material is made of in the end, and the share of each part."""
+    model, said = (materials[id].model, materials[id].parameters) if id else ("", {})
+    made = [(str(said.get(name, "")), share) for name, share in _shares(model, said)]
+    if not made:
+        return {Part(id, around) if id else NOTHING: 1.0}
+    found: dict[Part, float] = {}
+    for part, share in made:
+        within = (*around, id) if model in ("bumpmap", "normalmap") else around
+        for inner, inside in parts_of(part, materials, within).items() if share > 0 else ():
+            found[inner] = found.get(inner, 0.0) + share * inside
+    return found
+
+
+def _shares(model: str, said: Mapping[str, Value]) -> list[tuple[str, float]]:
+    """Return the parameters that name what a material is made of, "" for nothing, and the share of each."""
     if model == "blend":
         weight = float(said["weight"])  # type: ignore[arg-type]
-        made = [(str(said["materialID"]), 1 - weight), (str(said["otherMaterialID"]), weight)]
-    elif model == "mask":
+        return [("materialID", 1 - weight), ("otherMaterialID", weight)]
+    if model == "mask":
         opacity = float(said["opacity"])  # type: ignore[arg-type]
-        made = [(str(said["materialID"]), opacity), ("", 1 - opacity)]
-    else:
-        yield id, 1.0
-        return
-    for part, share in made:
-        if share > 0:
-            for inner, inside in _parts(part, materials):
-                yield inner, share * inside
+        return [("materialID", opacity), ("", 1 - opacity)]
+    return [("materialID", 1.0)] if model in ("bumpmap", "normalmap") else []
+
+
+def mixtures(materials: Mapping[str, Material], numbers: Mapping[Part, int]) -> Mixtures | None:
+    """Return what materials are made of; None where all are made of themselves, as they are numbered."""
+    made = [parts_of(id, materials) for id in materials]
+    if all(each == {Part(id): 1.0} for id, each in zip(materials, made, strict=True)):
+        return None
+    whole = [*({numbers[part]: share for part, share in each.items()} for each in made)]
+    return Mixtures([*whole, {numbers[NOTHING]: 1.0}])

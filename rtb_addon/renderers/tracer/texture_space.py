@@ -1,4 +1,4 @@
-"""Texture coordinates of triangles, and the direction in which U grows."""
+"""Texture coordinates of triangles, and the directions in which they grow."""
 
 from __future__ import annotations
 
@@ -16,9 +16,9 @@ def corner_uvs(shapes: Sequence[Shape]) -> FloatArray:
     return np.concatenate([np.zeros((3, 2, 0)), *map(_uvs, shapes)], axis=2)
 
 
-def along_u(shapes: Sequence[Shape], normals: FloatArray, one: FloatArray, two: FloatArray) -> FloatArray:
+def along_uv(shapes: Sequence[Shape], normals: FloatArray, one: FloatArray, two: FloatArray) -> FloatArray:
     """
-    Return (3, triangles) vectors along which U grows; without coordinates, anything across the normal.
+    Return (2, 3, triangles) vectors dp/du and dp/dv [m]; without coordinates, anything across the normal.
 
     Parameters
     ----------
@@ -28,8 +28,8 @@ def along_u(shapes: Sequence[Shape], normals: FloatArray, one: FloatArray, two: 
     (u1, v1), (u2, v2) = second - first, third - first
     area = u1 * v2 - v1 * u2
     flat = area == 0
-    along = (v2 * one - v1 * two) / np.where(flat, 1, area)
-    return np.where(flat, tangents(normals)[0], along)
+    u, v = v2 * one - v1 * two, u1 * two - u2 * one
+    return np.where(flat, tangents(normals), np.stack([u, v]) / np.where(flat, 1, area))
 
 
 def _uvs(shape: Shape) -> FloatArray:

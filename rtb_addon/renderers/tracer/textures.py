@@ -29,7 +29,7 @@ class Checkerboard:
         said = texture.parameters
         named = [(f"{name} of texture {texture.id}", said[name]) for name in ("evenColor", "oddColor")]
         self._colours = table(named, film)
-        self._place = _pairs(texture, "checksPer", "offset") / [[2], [1]]
+        self._place = pairs_of(texture, "checksPer", "offset") / [[2], [1]]
 
     def at(self, uvs: FloatArray) -> FloatArray:
         """Return the spectrum of each check."""
@@ -47,7 +47,7 @@ class Bitmap:
         self._height, self._width, _ = picture.texels.shape
         self._weights = picture.weights(film.bands, film.band_kind).astype(np.float32)
         self._nearest, self._wraps = said["filterMode"] == "nearest", (str(said["wrapMode"]),) * 2
-        self._place = _pairs(texture, "scale", "offset")
+        self._place = pairs_of(texture, "scale", "offset")
 
     def at(self, uvs: FloatArray) -> FloatArray:
         """Return the texel at each place, or what the four around it are on average."""
@@ -72,13 +72,15 @@ def around(
     wraps : how it goes on across and down
     nearest : whether only the nearest of the four counts
     """
-    across, down = (_beside(*one, nearest) for one in zip(places, sizes, wraps, strict=True))
+    across, down = (beside(*one, nearest) for one in zip(places, sizes, wraps, strict=True))
     for row, low in down:
         for column, along in across:
             yield row * sizes[0] + column, low * along
 
 
-def _beside(place: FloatArray, count: int, wrap: str, nearest: bool) -> list[tuple[IntArray, FloatArray]]:
+def beside(
+    place: FloatArray, count: int, wrap: str, nearest: bool = False
+) -> list[tuple[IntArray, FloatArray]]:
     """Return the two texels that places lie between in one direction, and how much each counts."""
     middle = place - 0.5
     low: FloatArray = np.floor(middle)
@@ -106,7 +108,7 @@ def lookup(texture: Texture, film: Film) -> Lookup:
     return KINDS[texture.kind](texture, film)
 
 
-def _pairs(texture: Texture, scale: str, offset: str) -> FloatArray:
+def pairs_of(texture: Texture, scale: str, offset: str) -> FloatArray:
     """Return how texture coordinates are scaled, then moved: a row each, a column for U and V."""
     said = texture.parameters
     return np.array([[said[f"{name}{axis}"] for axis in "UV"] for name in (scale, offset)], float)
