@@ -16,6 +16,7 @@ from ...spectral_image import SpectralImage
 from ..interface import Extras, Installed, RenderOptions, Report
 from ..rounds import tells_noise
 from . import native, passes
+from .together import Together
 
 # Goes up when a picture of the same native scene changes.
 VERSION = "1.2"
@@ -39,7 +40,7 @@ class Tracer:
         """Render a native scene [W sr-1 m-2 nm-1]; the same file gives the same bits on every run."""
         scene = native.read(native_file)
         report(0.0)
-        painter = passes.Alone(scene)
+        painter = passes.Alone(scene) if options.threads == 1 else Together(native_file, options.threads)
         rounds = passes.render(scene, painter, options, report)
         attributes = {
             "renderer": self.name,
