@@ -9,7 +9,7 @@ from __future__ import annotations
 
 import json
 import os
-from collections.abc import Mapping
+from collections.abc import Collection, Mapping
 from dataclasses import asdict
 from pathlib import Path
 from typing import Any
@@ -25,6 +25,7 @@ from ...scene.render_scene import (
     Integrator,
     Light,
     Material,
+    Mesh,
     RenderScene,
     Shape,
     Texture,
@@ -40,6 +41,8 @@ from .checks import check
 
 VERSION = 3
 _FORMAT = "RenderToolbox tracer scene"
+# The meshes of the last scene: their files are named by content.
+_warm: dict[str, Mesh] = {}
 
 
 def translate(scene: RenderScene, extras: Extras, folder: Path, name: str, renderer: str = "tracer") -> Path:
@@ -153,6 +156,7 @@ def _read_scene(native: dict[str, Any], folder: Path) -> RenderScene:
         Material(one["id"], one["model"], _read_parameters(one["parameters"], folder))
         for one in native["materials"]
     ]
+    meshes = _read_meshes({one["mesh"] for one in native["shapes"]}, folder)
     return RenderScene(
         camera=Camera(
             camera["id"],
@@ -163,7 +167,7 @@ def _read_scene(native: dict[str, Any], folder: Path) -> RenderScene:
             camera["lens_radius"],
             camera["focus_distance"],
         ),
-        shapes=tuple(_read_shape(one, folder) for one in native["shapes"]),
+        shapes=tuple(_read_shape(one, meshes) for one in native["shapes"]),
         materials={material.id: material for material in materials},
         lights=tuple(_read_light(one, folder) for one in native["lights"]),
         textures={one["id"]: _read_texture(one, folder) for one in native["textures"]},
@@ -171,6 +175,14 @@ def _read_scene(native: dict[str, Any], folder: Path) -> RenderScene:
         integrator=Integrator(**native["integrator"]),
         film=_read_film(native["film"]),
     )
+
+
+def _read_meshes(names: Collection[str], folder: Path) -> Mapping[str, Mesh]:
+    """Return meshes by the names of their files; those of the last scene are not read again."""
+    found = {name: _warm.get(name) or read_mesh(folder / name) for name in names}
+    _warm.clear()
+    _warm.update(found)
+    return found
 
 
 def _read_film(one: dict[str, Any]) -> Film:
@@ -183,10 +195,10 @@ def _read_light(one: dict[str, Any], folder: Path) -> Light:
     return Light(one["id"], one["kind"], to_world, _read_parameters(one["parameters"], folder))
 
 
-def _read_shape(one: dict[str, Any], folder: Path) -> Shape:
+def _read_shape(one: dict[str, Any], meshes: Mapping[str, Mesh]) -> Shape:
     emission = None if one["emission"] is None else _read_spectrum(one["emission"])
     to_world = np.array(one["to_world"], float)
-    return Shape(one["id"], read_mesh(folder / one["mesh"]), to_world, one["material"], emission)
+    return Shape(one["id"], meshes[one["mesh"]], to_world, one["material"], emission)
 
 
 def _read_parameters(parameters: dict[str, Any], folder: Path) -> dict[str, Value]:
