@@ -3,11 +3,11 @@ The internal tracer against stock Mitsuba's spectral film and our own Mitsuba pa
 
     python benchmarks/tracer.py [rounds] [size] [samples] [threads]
 
-Prints, for a Cornell-like matte box (31 bands, depth 6) without and with a smooth ball of 300 000 triangles in
-it, each way's best wall time and its efficiency, 1 / (relative mean squared error x time), over that of the
+Prints, for a Cornell-like matte box (31 bands, depth 6) without and with a smooth ball of 300 000 triangles,
+each way's best wall time and its efficiency, 1 / (relative mean squared error x time), over that of the
 stock film, which uses our native scene as it is: with Mitsuba's multijitter sampler, and once more with
-the independent one that it has when nobody asks. Then what one process of the tracer does: paths per second of
-processor time, the share of it inside the ray kernel, and the seconds before the first path.
+the independent one that it has when nobody asks. Then what one process of the tracer does: paths per second
+of processor time, the share of it inside the ray kernel, and the seconds before the first path.
 """
 
 import sys

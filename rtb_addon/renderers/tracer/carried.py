@@ -163,6 +163,7 @@ class Histories:
         self._spectra = spectra
         self._numbers: dict[tuple[int, ...], int] = {(): 0}
         self.rows: list[tuple[int, ...]] = [()]
+        self._products = [np.ones(spectra.shape[1])]
         self._after = np.full((64, len(spectra)), -1, np.int32)
 
     def after(self, history: IntArray, spectrum: IntArray) -> IntArray:
@@ -177,8 +178,7 @@ class Histories:
 
     def products(self, histories: IntArray) -> FloatArray:
         """Return the (histories, bands) products of the spectra of some histories."""
-        rows = (self._spectra[list(self.rows[one])].prod(axis=0, dtype=float) for one in histories)
-        return np.stack([*rows]).astype(np.float32)
+        return np.stack([self._products[one] for one in histories]).astype(np.float32)
 
     def _learn(self, history: int, spectrum: int) -> None:
         """Find the number of a history and one spectrum more, a new one perhaps."""
@@ -186,6 +186,7 @@ class Histories:
         number = self._numbers.setdefault(rows, len(self.rows))
         if number == len(self.rows):
             self.rows.append(rows)
+            self._products.append(self._spectra[list(rows)].prod(axis=0, dtype=float))
             if number == len(self._after):
                 self._after = np.concatenate([self._after, np.full_like(self._after, -1)])
         self._after[history, spectrum] = number

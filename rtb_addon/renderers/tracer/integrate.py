@@ -159,8 +159,8 @@ def _met_surfaces(
     if world.materials.mixtures is not None:
         number = draw.pair(step, PART, paths.number.take(rows))[0]
         material = world.materials.mixtures.one_of(material, number)
-    bright = world.materials.reflects.take(material)
-    rows, material = rows[bright], material[bright]
+    bright = np.nonzero(world.materials.reflects.take(material))[0]
+    rows, material = rows.take(bright), material.take(bright)
     meetings = []
     for model, where, row in world.materials.sorted(material):
         theirs, some = paths.only(rows[where]), hits.only(rows[where])

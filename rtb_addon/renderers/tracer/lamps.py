@@ -110,7 +110,7 @@ class Triangles:
         way /= distance
         cosine = -dot(table[9:12], way)
         shines = cosine > 0
-        cosine[~shines] = 1
+        cosine = np.maximum(cosine, np.float32(1e-12))
         density = distance**2 / (cosine * table[12])
         # As rays start a little above a surface, they end a little above this one.
         reach = np.maximum(distance - table[13] / cosine, 0)

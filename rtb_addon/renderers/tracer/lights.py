@@ -22,6 +22,9 @@ from .lamps import Group, Lamps, Sample, Spheres, Suns, Triangles
 from .sky import Skies
 from .tables import table
 
+# So many lights, or triangles of them, are told apart sooner one by one than by bisection.
+_FEW = 16
+
 
 class Met(NamedTuple):
     """
@@ -60,6 +63,7 @@ class Lights:
         lamps, spheres, suns = _sorted_out(scene)
         count = len(emitting)
         self._triangles = Triangles(surfaces, self._row_of)
+        self._row_of = np.pad(self._row_of, (0, 1 + len(spheres)), constant_values=-1)
         self._lamps = Lamps(lamps, count)
         self._spheres = self.spheres = Spheres(spheres, count + len(lamps))
         self._suns = Suns(suns, count + len(lamps) + len(spheres), surfaces.radius())
@@ -81,10 +85,20 @@ class Lights:
         """
         if not len(self._chance):
             return None
-        element = np.searchsorted(self._sums[1:], u, side="right").clip(max=len(self._chance) - 1)
-        u = ((u - self._sums[element]) / self._chance[element]).clip(0, 1 - 2.0**-53)
+        element, u = self._chosen(u)
         sample = self._sample(element, points, u, v)
-        return sample._replace(density=sample.density * self._chance[element])
+        return sample._replace(density=sample.density * self._chance.take(element))
+
+    def _chosen(self, u: FloatArray) -> tuple[IntArray, FloatArray]:
+        """Return which element of which light each of (n,) numbers chooses, and numbers as random again."""
+        if len(self._chance) > _FEW:
+            element = np.searchsorted(self._sums[1:-1], u, side="right")
+        else:
+            element = np.zeros(len(u), int)
+            for edge in self._sums[1:-1]:
+                element += u >= edge
+        u = (u - self._sums.take(element)) / self._chance.take(element)
+        return element, np.minimum(np.maximum(u, 0), 1 - 2.0**-53)
 
     def _sample(self, element: IntArray, points: FloatArray, u: FloatArray, v: FloatArray) -> Sample:
         """Return a direction to each point's light, from the group that knows it."""
@@ -118,8 +132,8 @@ class Lights:
             yield self._met_environment(escaped, directions)
 
     def _met_triangles(self, hits: Hits, directions: FloatArray) -> Met:
-        rows = np.nonzero(hits.triangle >= 0)[0] if self._triangles.rows.size else np.zeros(0, int)
-        rows = rows[self._row_of.take(hits.triangle[rows]) >= 0]
+        # What is no triangle is negative, and finds the -1 at the end of the table.
+        rows = np.nonzero(self._row_of.take(hits.triangle) >= 0)[0]
         triangle = hits.triangle[rows]
         cosine = -dot(self._normals[:, triangle], directions[:, rows])
         rows, triangle, cosine = rows[cosine > 0], triangle[cosine > 0], cosine[cosine > 0]

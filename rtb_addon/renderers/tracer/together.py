@@ -1,8 +1,8 @@
 """
 Several processes that paint tiles of one picture: a ray kernel keeps Python to itself while it works.
 
-Each has the whole scene to itself and waits for questions: a native scene, then tiles of it, as lines of JSON.
-They stay for the next scene, whose triangles may be the same. A tile is the same whoever paints it.
+Each has the whole scene to itself and waits for questions: a native scene, then tiles of it, as lines of
+JSON. They stay for the next scene, whose triangles may be the same. A tile is the same whoever paints it.
 """
 
 from __future__ import annotations
@@ -77,7 +77,7 @@ def main() -> None:
             else:
                 assert alone is not None
                 light = alone.tile(Tile(*question["tile"]))
-                answer = {"light": base64.b64encode(np.ascontiguousarray(light)).decode()}
+                answer = {"light": base64.b64encode(light.tobytes()).decode()}
         except (RecipeError, RenderingError) as error:
             answer = {"error": str(error)}
         print(json.dumps(answer), flush=True)
