@@ -22,8 +22,8 @@ class Fidelity(NamedTuple):
 
 EXACT = Fidelity("exact")
 ABSENT = Fidelity("absent")
-# Mitsuba's colours have three components, each the coefficient of a spectrum.
-_UP_TO_THREE = Fidelity("exact", "of at most three different spectra in all")
+# Mitsuba looks a measured surface up at a wavelength.
+_AT_MIDDLES = Fidelity("approximate", "a band, or a tenth of one for the kind mean, is seen at its middle")
 
 _BY_TENTHS = Fidelity("exact", "up to what varies within a tenth of a band")
 # What a glass's maker writes beside its name.
@@ -41,8 +41,9 @@ TABLE: Mapping[str, Mapping[str, Fidelity]] = {
     "material plastic": {"mitsuba": EXACT, "tracer": EXACT},
     "material roughplastic": {"mitsuba": EXACT, "tracer": EXACT},
     "material principled": {"mitsuba": EXACT},
-    "material blend": {"mitsuba": _UP_TO_THREE, "tracer": EXACT},
+    "material blend": {"mitsuba": EXACT, "tracer": EXACT},
     "material mask": {"mitsuba": EXACT, "tracer": EXACT},
+    "material measured": {"mitsuba": _AT_MIDDLES},
     "material bumpmap": {"mitsuba": EXACT, "tracer": EXACT},
     "material normalmap": {"mitsuba": EXACT, "tracer": EXACT},
     "light point": {"mitsuba": EXACT, "tracer": EXACT, "sphere": EXACT},

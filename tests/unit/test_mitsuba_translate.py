@@ -233,27 +233,15 @@ def painted(model, **parameters):
     return replace(one, materials={**one.materials, "paint": Material("paint", model, parameters)})
 
 
-def four_spectra():
-    grey = {"alphaU": 0.1, "alphaV": 0.1, "variant": "ward"}
-    parts = [
-        {"diffuseReflectance": Spectrum.constant(k / 10), "specularReflectance": Spectrum.constant(k / 20)}
-        for k in (1, 3)
-    ]
-    one = painted("blend", materialID="first", otherMaterialID="second", weight=0.5)
-    made = {
-        name: Material(name, "anisoward", {**grey, **part})
-        for name, part in zip(("first", "second"), parts, strict=True)
-    }
-    return replace(one, materials={**one.materials, **made})
-
-
 TINTS = {"specularReflectance": Spectrum.constant(1), "specularTransmittance": Spectrum.constant(1)}
 WRONG |= {
     "paint is made of itself": lambda: painted("mask", materialID="paint", opacity=0.5),
     "material paint wants material oak": lambda: painted("mask", materialID="oak", opacity=0.5),
     "has 1.5 as its opacity": lambda: painted("mask", materialID="soot", opacity=1.5),
-    "paint is made of 4 spectra, give it 1 to 3": four_spectra,
-    "no measured yet": lambda: painted("measured", filename="x"),
+    "no fluorescent yet": lambda: painted("fluorescent", filename="x"),
+    "has cosine as its distribution, give beckmann or ggx": lambda: painted(
+        "metal", eta=GREY, k=GREY, roughness=0.1, distribution="cosine"
+    ),
     "has -0.1 as its roughness": lambda: painted("metal", eta=GREY, k=GREY, roughness=-0.1),
     "paint needs a spectrum as its eta": lambda: painted("metal", eta=TextureUse("x"), k=GREY, roughness=0.1),
     "has 0.0 as its extIOR": lambda: painted("glass", intIOR=1.5, extIOR=0.0, **TINTS),

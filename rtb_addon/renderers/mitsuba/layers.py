@@ -19,6 +19,7 @@ from numpy.typing import NDArray
 from ...layers import Layers
 from ...spectra import FloatArray
 from ..interface import RenderOptions, Report
+from .band_groups import meet
 from .camera_rays import CameraRays
 from .loaded import LoadedScene
 from .lobe_path import scatter
@@ -168,7 +169,8 @@ def _scattered(seen: _Seen, sampler: Any, pixel: Any) -> list[Any]:
         tables = tables.for_parts(mi.UInt32(sampler.next_1d() * tables.parts))
     _, si = seen.at(pixel)
     met, bsdf = si.is_valid(), si.bsdf()
-    turn, onward = bsdf.sample(mi.BSDFContext(), si, sampler.next_1d(), sampler.next_2d(), met)
+    draws = sampler.next_1d(), sampler.next_2d()
+    _, _, turn, onward = meet(tables, bsdf, si, si.wi, draws, met)
     even = [mi.Float(1)] * tables.padded_bands
     lit, turned = (turn.wo, onward, mi.Float(1)), (turn.wo, onward)
     _, spectral, scalar, _ = scatter(tables, even, mi.Float(1), (bsdf, si, met), lit, turned)

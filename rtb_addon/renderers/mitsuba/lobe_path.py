@@ -13,6 +13,7 @@ from __future__ import annotations
 import drjit as dr
 import mitsuba as mi
 
+from .band_groups import meet
 from .tables import Tables
 
 # How many of the paths that may end go on, at each bounce: about as many as light is left in a room.
@@ -32,7 +33,6 @@ def path_radiance(scene, tables: Tables, sampler, ray, worth, limits) -> list:
         mi.UInt32 in memory; None for the second: they never do
     """
     depth, roulette = limits
-    context = mi.BSDFContext()
     radiance = [mi.Float(0) for _ in range(tables.padded_bands)]
     # The throughput is the product of these two: each band's own part, and what all bands share.
     spectral = [mi.Float(1) for _ in range(tables.padded_bands)]
@@ -52,7 +52,7 @@ def path_radiance(scene, tables: Tables, sampler, ray, worth, limits) -> list:
         light_pdf = scene.pdf_emitter_direction(before, seen, active & ~before_delta)
         share = dr.select(before_delta, 1, before_pdf / (before_pdf + light_pdf))
         row = tables.emitter_row(emitter, active)
-        glow = scalar * share * emitter.eval(si, active).x * tables.beam(row, -ray.d, active)
+        glow = scalar * share * emitter.eval(si, active)[0] * tables.beam(row, -ray.d, active)
         shines = active & (glow != 0)
         radiance = _add(radiance, spectral, tables.emission(row, ray.d, shines), dr.select(shines, glow, 0))
         if dr.hint(tables.suns > 0, mode="scalar"):
@@ -66,12 +66,11 @@ def path_radiance(scene, tables: Tables, sampler, ray, worth, limits) -> list:
         found, weight = sample_light(scene, tables, sampler, si, lit)
         lit &= found.pdf != 0
         towards = si.to_local(found.d)
-        value, pdf, turn, onward = bsdf.eval_pdf_sample(
-            context, si, towards, sampler.next_1d(), sampler.next_2d(), going
-        )
+        draws = sampler.next_1d(), sampler.next_2d()
+        value, pdf, turn, onward = meet(tables, bsdf, si, towards, draws, going)
         share = dr.select(found.delta, 1, found.pdf / (found.pdf + pdf))
         row = tables.emitter_row(found.emitter, lit)
-        glow = dr.select(lit, scalar * share * weight.x * tables.beam(row, -found.d, lit), 0)
+        glow = dr.select(lit, scalar * share * weight[0] * tables.beam(row, -found.d, lit), 0)
         emission = tables.emission(row, found.d, lit)
         seen_lit, spectral, scalar, glow = scatter(
             tables, spectral, scalar, (bsdf, si, going), (towards, value, glow), (turn.wo, onward)
@@ -117,9 +116,13 @@ def scatter(tables, spectral, scalar, at, lit, turned):
     Parameters
     ----------
     at : the materials, where paths meet them, and which of them count
-    lit : directions to the light, the coefficients of the lobes there, and its weight so far
-    turned : directions of the paths, and the coefficients of the lobes there
+    lit : directions to the light, what meet() says of them, and its weight so far
+    turned : directions of the paths, and what meet() says of them
     """
+    if tables.all_bands:
+        going = sum((abs(band) for band in turned[1]), mi.Float(0)) > 0
+        onward = dr.select(going, scalar, 0)
+        return _times(spectral, lit[1]), _times(spectral, turned[1]), onward, lit[2]
     (bsdf, si, active), (towards, value, glow), (wo, onward) = at, lit, turned
     row = tables.material_row(bsdf, active)
     lobes = [tables.reflectance(row, k, si.uv, active) for k in range(tables.lobes)]

@@ -47,8 +47,8 @@ _LINEAR: Mapping[str, Mapping[str, float]] = {
     "mask": {},
 }
 
-# What makes the principled material more than linear, by the square root or the luminance of its colour.
-_TINTS = ("spec_tint", "sheen_tint", "spec_trans")
+# What makes the principled material more than linear, by the square root of its colour, or by the luminance.
+_ROOT, _LUMINANCE = ("spec_trans",), ("spec_tint", "sheen_tint")
 
 
 class BeyondLobes(RenderingError):
@@ -99,10 +99,15 @@ _CONSTANT = Lobe(Spectrum.constant(1.0), constant=True)
 
 def take_lobes(root: Xml.Element) -> dict[str, list[Lobe]]:
     """Replace the spectra of all materials in a scene by one-hot colours; return their lobes by material."""
+    return {id: _take(id, node) for id, node in expanded(root).items()}
+
+
+def expanded(root: Xml.Element) -> dict[str, Xml.Element]:
+    """Return the materials of a scene by id, each with all that it is made of in it."""
     named = {node.get("id", ""): node for node in root.iter("bsdf") if node.get("id")}
     for node in named.values():
         _expand(node, named, (node.get("id", ""),))
-    return {id: _take(id, node) for id, node in named.items()}
+    return named
 
 
 def _expand(node: Xml.Element, named: Mapping[str, Xml.Element], above: tuple[str, ...]) -> None:
@@ -120,16 +125,14 @@ def _expand(node: Xml.Element, named: Mapping[str, Xml.Element], above: tuple[st
 
 
 def _take(id: str, material: Xml.Element) -> list[Lobe]:
+    refuse_tints(id, material)
     for node in list(material.iter("bsdf")):
         _complete(id, node)
-        if node.get("type") == "mask":
-            _open(node)
-        if node.get("type") == "blendbsdf":
-            _name_parts(node)
+    open_and_named(material)
     metals = {node: _take_index(id, node) for node in material.iter("bsdf")}
     found: dict[tuple, Lobe] = {}
     places = []
-    for parent, index, child in _spectra(id, material):
+    for parent, index, child in spectra_of(id, material):
         key = _content(child), *map(_content, metals.get(parent, ()))
         if key not in found:
             found[key] = _lobe(child, metals.get(parent, ()))
@@ -142,6 +145,15 @@ def _take(id: str, material: Xml.Element) -> list[Lobe]:
     for parent, index, name, key in places:
         parent[index] = one_hot_colour(name, order.index(key))
     return [*(found[key] for key in order), *constant]
+
+
+def open_and_named(material: Xml.Element) -> None:
+    """Turn masks into blends with nothing, and all blends into those of our plugin."""
+    for node in list(material.iter("bsdf")):
+        if node.get("type") == "mask":
+            _open(node)
+        if node.get("type") == "blendbsdf":
+            _name_parts(node)
 
 
 def in_slots(lobes: Sequence[Lobe], count: int) -> list[Lobe | None]:
@@ -170,10 +182,8 @@ def picture_use(node: Xml.Element) -> PictureUse:
 def _complete(id: str, node: Xml.Element) -> None:
     """Refuse what is not linear, and write out the spectra that Mitsuba would fill in as white or grey."""
     kind = node.get("type", "")
-    tinted = [child.get("name") for child in node if child.get("name") in _TINTS and _is_given(child)]
-    if kind == "principled" and tinted:
-        raise BeyondLobes(f"the native scene's {id} has {tinted[0]}, leave it at 0")
-    if kind not in _LINEAR:
+    given = {child.get("name") for child in node if _is_given(child)}
+    if kind not in _LINEAR or (kind == "principled" and given.intersection(_ROOT)):
         raise BeyondLobes(f"the native scene's {id} is a {kind}, make it one of {', '.join(_LINEAR)}")
     there = {child.get("name") for child in node}
     for name, value in _LINEAR[kind].items():
@@ -226,7 +236,16 @@ def _name_parts(blend: Xml.Element) -> None:
         child.set("name", name)
 
 
-def _spectra(id: str, material: Xml.Element) -> Iterator[tuple[Xml.Element, int, Xml.Element]]:
+def refuse_tints(id: str, material: Xml.Element) -> None:
+    """Refuse what Mitsuba makes of the luminance of a spectrum, which four bands do not have."""
+    for node in material.iter("bsdf"):
+        tints = [child.get("name") for child in node if child.get("name") in _LUMINANCE and _is_given(child)]
+        if tints:
+            raise RenderingError(f"the native scene's {id} has a {tints[0]}, leave it at 0")
+
+
+def spectra_of(id: str, material: Xml.Element) -> Iterator[tuple[Xml.Element, int, Xml.Element]]:
+    """Yield the spectra and pictures of a material, each with what holds it and where it stands there."""
     for parent in list(material.iter()):
         for index, child in enumerate(list(parent)):
             if child.tag == "rgb" or (child.tag == "spectrum" and not child.get("type")):

@@ -54,13 +54,15 @@ class OneHotScene:
     Parameters
     ----------
     xml : a scene for Mitsuba's rgb variants without any spectrum
-    materials : id of a material -> its lobes
+    materials : id of a material -> its lobes; none in the all-bands path
     emitters : id of an emitter -> its row
+    wavelengths : (bands x parts,) where materials look up their spectra in the all-bands path [nm]
     """
 
     xml: str
     materials: dict[str, list[Lobe]]
     emitters: dict[str, Emitter]
+    wavelengths: FloatArray | None = None
 
     @property
     def lobes(self) -> int:
@@ -75,23 +77,33 @@ class OneHotScene:
 
 
 def one_hot(native: Native) -> OneHotScene:
-    """Return a native scene ready for the lobe path."""
+    """Return a native scene ready for the lobe path; BeyondLobes where a material is more than that."""
+    root, beams = bare(native)
+    materials = take_lobes(root)
+    emitters = take_emitters(root, native, beams)
+    return OneHotScene(Xml.tostring(root, encoding="unicode"), materials, emitters)
+
+
+def bare(native: Native) -> tuple[Xml.Element, dict[str, dict]]:
+    """Return a copy of a native scene without what only stock Mitsuba reads, and the beams of its spots."""
     root = copy.deepcopy(native.root)
     for node in [child for child in root if child.tag in ("default", "integrator")]:
         root.remove(node)
     _swap_film(root, native)
     _make_files_absolute(root, native)
-    beams = _swap_spots(root, native)
-    materials = take_lobes(root)
-    emitters = {_id(node): _take_emitter(node, native, beams) for node in root.iter("emitter")}
-    return OneHotScene(Xml.tostring(root, encoding="unicode"), materials, emitters)
+    return root, _swap_spots(root, native)
+
+
+def take_emitters(root: Xml.Element, native: Native, beams: dict[str, dict]) -> dict[str, Emitter]:
+    """Replace the spectra of all emitters by one-hot colours; return their rows by emitter."""
+    return {_id(node): _take_emitter(node, native, beams) for node in root.iter("emitter")}
 
 
 def _swap_film(root: Xml.Element, native: Native) -> None:
     """Give the camera a film of the same size that rgb variants know; nothing is ever written to it."""
     for sensor in root.iter("sensor"):
-        # How many samples are taken is told later, round by round.
-        for count in sensor.iterfind("sampler/integer[@name='sample_count']"):
+        # How many samples are taken, and from which seed, is told later, round by round.
+        for count in sensor.iterfind("sampler/integer"):
             count.set("value", "4")
         for film in sensor.findall("film"):
             sensor.remove(film)

@@ -14,7 +14,8 @@ from typing import Any
 
 import numpy as np
 
-from ..pictures import read_picture
+from ...spectra import Bands
+from ..pictures import Picture, read_picture
 from .textures_xml import ALL_WRAPS
 
 
@@ -22,7 +23,8 @@ def picture_plugin(mi: ModuleType) -> Any:
     """
     Return the plugin's class for Mitsuba's present variant.
 
-    Its parameters are filename, gamma, wrap_mode, filter_type, scale_u, scale_v, offset_u and offset_v.
+    Its parameters are filename, gamma, wrap_mode, filter_type, scale_u, scale_v, offset_u and offset_v; and
+    band_centres, band_edges [nm] and band_kind, where it is to hold the values of bands at their centres.
     """
     import drjit as dr
 
@@ -31,6 +33,8 @@ def picture_plugin(mi: ModuleType) -> Any:
             mi.Texture.__init__(self, props)
             resolved = mi.file_resolver().resolve(props["filename"])
             self.picture = read_picture(Path(str(resolved)), props.get("gamma", 1.0))
+            if "band_centres" in props:
+                self.picture = _in_bands(self.picture, props)
             self.size = self.picture.texels.shape
             self.average = float(self.picture.texels.mean())
             self.wavelengths = mi.Float(self.picture.wavelengths.astype(np.float32))
@@ -85,3 +89,10 @@ def picture_plugin(mi: ModuleType) -> Any:
             return f"Picture[{self.size}]"
 
     return PictureTexture
+
+
+def _in_bands(picture: Picture, props: Any) -> Picture:
+    """Return a picture with a channel for each band."""
+    centres, edges = (np.array(props[f"band_{name}"].split(), float) for name in ("centres", "edges"))
+    weights = picture.weights(Bands(centres, edges), props["band_kind"]).astype(np.float32)
+    return Picture(picture.texels @ weights, centres, measured=True)

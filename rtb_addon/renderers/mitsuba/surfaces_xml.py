@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+import os
 from collections.abc import Mapping
 from dataclasses import replace
 from pathlib import Path
@@ -85,6 +86,11 @@ def _principled(one: Material, to: Writer) -> Xml.Element:
     return node
 
 
+def _measured(one: Material, to: Writer) -> Xml.Element:
+    file = str(one.parameters["filename"])
+    return element("bsdf", "measured", filename=Path(os.path.relpath(file, to.folder)).as_posix())
+
+
 SURFACES = {
     "matte": _matte,
     "anisoward": _ward,
@@ -93,6 +99,7 @@ SURFACES = {
     "plastic": _plastic,
     "roughplastic": _plastic,
     "principled": _principled,
+    "measured": _measured,
 }
 
 

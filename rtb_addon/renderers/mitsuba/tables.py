@@ -16,7 +16,7 @@ import numpy as np
 
 from ...spectra import BandKind, Bands, FloatArray, Spectrum
 from .arrays import floats
-from .band_parts import in_parts, parts_of
+from .band_parts import by_part, in_parts, parts_of
 from .loaded import LoadedScene
 from .lobes import Lobe, in_slots
 from .one_hot import Emitter, OneHotScene
@@ -46,6 +46,7 @@ class Tables:
     beams : whether some emitter is a spot
     suns : number of emitters that are discs in the sky
     materials : ids of the materials, in the order of their rows
+    all_bands : whether materials are asked for every band, not for lobes
     parts : how many parts a band has, of which each path takes one (see band_parts.py)
     single : whether there is one emitter, whose spectrum can wait until the end
     """
@@ -62,6 +63,7 @@ class Tables:
         # Many scenes have one lamp: its spectrum is then multiplied once a path instead of twice a bounce.
         pictured = [emitter for emitter in emitters if emitter.picture is not None]
         self.single = len(emitters) == 1 and self.suns == 0 and not pictured
+        self.all_bands = source.wavelengths is not None
         self._fill(source, emitters, bands, kind)
         self.pictures = _pictures(source, bands, kind, self.padded_bands)
         shown = [Lobe(each.spectrum, picture=each.picture) for each in emitters]
@@ -94,6 +96,10 @@ class Tables:
         # Light sampling aims anywhere in a disc: irradiance becomes radiance times solid angle.
         gains = [2 / (2 - emitter.narrowness) for emitter in emitters]
         glows = [in_bands(emitter.spectrum) * gain for emitter, gain in zip(emitters, gains, strict=True)]
+        if source.wavelengths is not None:
+            places = by_part(source.wavelengths, kind, self.padded_bands)
+            # Bands that fill up a packet are looked up as the first is, and come to nothing.
+            self._wavelengths = floats(np.where(places > 0, places, places[:, :1]))
         self._reflectances = floats(rows)
         self._indices = floats(indices)
         self._is_metal = mi.Bool(np.ravel(metals) if self.metals else [False])
@@ -110,6 +116,11 @@ class Tables:
         there._part = part
         there.pictures, there.sky = self.pictures.for_parts(part), self.sky.for_parts(part)
         return there
+
+    def wavelengths(self) -> list:
+        """Return where materials look up their spectra in the all-bands path, four bands at a time [nm]."""
+        bands = self._bands(self._wavelengths, mi.UInt32(0), True)
+        return [mi.Spectrum(*bands[start : start + 4]) for start in range(0, len(bands), 4)]
 
     def emitter_row(self, emitter, active) -> Any:
         """Return the row of each emitter."""

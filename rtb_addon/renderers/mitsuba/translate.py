@@ -8,14 +8,13 @@ which it reads and ignores, and a comment says so; our own renderer reads them (
 
 from __future__ import annotations
 
-import copy
 import os
 from pathlib import Path
 from xml.etree import ElementTree as Xml
 
 import numpy as np
 
-from ...errors import RecipeError, RenderingError
+from ...errors import RecipeError
 from ...files import write_bytes
 from ...scene.render_scene import Integrator, Mesh, RenderScene, Shape
 from ..interface import Extras
@@ -25,7 +24,6 @@ from .camera_xml import matrix, sensor
 from .environment_xml import environment
 from .film_xml import band_defaults, film
 from .lights_xml import BLACK, light
-from .lobes import take_lobes
 from .materials_xml import materials, texture_of
 from .names import Names
 from .spectrum_xml import element, format_spectrum, range_for
@@ -54,7 +52,6 @@ def scene_xml(scene: RenderScene, folder: Path) -> Xml.Element:
     root.append(_black(names))
     root.extend(sensor(scene.camera, scene.film, _sampler(integrator), film(scene.film), names))
     root.extend(materials(scene, names, span, folder))
-    _count_lobes(root)
     for shape in scene.shapes:
         if len(shape.mesh.triangles):
             _check_uvs(shape, scene)
@@ -80,14 +77,6 @@ def _black(names: Names) -> Xml.Element:
     node = element("bsdf", "diffuse", id=names.of("material", BLACK))
     node.append(element("spectrum", "uniform", name="reflectance", value=0.0))
     return node
-
-
-def _count_lobes(root: Xml.Element) -> None:
-    """Refuse materials of more spectra than our path can tell apart, before anything is rendered."""
-    try:
-        take_lobes(copy.deepcopy(root))
-    except RenderingError as error:
-        raise RecipeError(str(error)) from error
 
 
 def _check_uvs(shape: Shape, scene: RenderScene) -> None:
