@@ -8,7 +8,7 @@ import sys
 from collections.abc import Sequence
 from pathlib import Path
 
-from . import command_line as verbs
+from .background import start_early, stop_early
 from .errors import RecipeError, RenderingError
 
 WRONG, CANCELLED = 2, 130
@@ -17,8 +17,13 @@ WRONG, CANCELLED = 2, 130
 def main(arguments: Sequence[str] | None = None) -> int:
     """Do what the arguments say and return the exit status: 0 done, 1 partly, 2 wrong, 130 cancelled."""
     said = _parser().parse_args(arguments)
+    if said.verb == "render" and _has_work(said):
+        start_early([], "rtb_addon.worker", said.threads)
     try:
-        return said.verb(said)
+        # Only now: what a verb needs takes a while to import, and a first worker imports it meanwhile.
+        from . import command_line
+
+        return getattr(command_line, said.verb)(said)
     except RecipeError as error:
         return _end(str(error), WRONG)
     except RenderingError as error:
@@ -27,6 +32,14 @@ def main(arguments: Sequence[str] | None = None) -> int:
         return _end(f"{error.filename or 'system'}: {error.strerror or error}", 1)
     except KeyboardInterrupt:
         return CANCELLED
+    finally:
+        stop_early()
+
+
+def _has_work(said: argparse.Namespace) -> bool:
+    """Return whether a batch is sure to need a worker of ours, as far as one look can tell."""
+    new = said.fresh or not (said.folder / "renderings").is_dir()
+    return new and said.scheduler is None and (said.folder / "recipe.json").is_file()
 
 
 def _end(sentence: str, status: int) -> int:
@@ -48,7 +61,7 @@ def _parser() -> argparse.ArgumentParser:
     _add_unpack(verb.add_parser("unpack", help="make a recipe's folder of such a zip"))
     renderers = verb.add_parser("renderers", help="say which renderers are installed, and why not")
     renderers.add_argument("--json", action="store_true", help="print a line of JSON for each")
-    renderers.set_defaults(verb=verbs.renderers_installed)
+    renderers.set_defaults(verb="renderers_installed")
     return parser
 
 
@@ -66,14 +79,14 @@ def _add_render(render: argparse.ArgumentParser) -> None:
     render.add_argument("--fresh", action="store_true", help="render even what is done")
     _add_trust(render)
     render.add_argument("--json", action="store_true", help="print a line of JSON for each event")
-    render.set_defaults(verb=verbs.render)
+    render.set_defaults(verb="render")
 
 
 def _add_check(check: argparse.ArgumentParser) -> None:
     _add_folder(check)
     _add_trust(check)
     check.add_argument("--json", action="store_true", help="print a line of JSON for each finding")
-    check.set_defaults(verb=verbs.check)
+    check.set_defaults(verb="check")
 
 
 def _add_import(add: argparse.ArgumentParser) -> None:
@@ -96,13 +109,13 @@ def _add_import(add: argparse.ArgumentParser) -> None:
         metavar="FOLDER",
         help="where to look for files that are not beside the others",
     )
-    add.set_defaults(verb=verbs.import_files)
+    add.set_defaults(verb="import_files")
 
 
 def _add_montage(montage: argparse.ArgumentParser) -> None:
     _add_folder(montage)
     montage.add_argument("--output", type=Path, metavar="FILE.png", help="else images/RENDERER/NAME.png")
-    montage.set_defaults(verb=verbs.montage)
+    montage.set_defaults(verb="montage")
 
 
 def _add_compare(compare: argparse.ArgumentParser) -> None:
@@ -114,20 +127,20 @@ def _add_compare(compare: argparse.ArgumentParser) -> None:
         "--conditions", type=_names, metavar="A,B", help="names of those to compare, else all"
     )
     compare.add_argument("--json", action="store_true", help="print a line of JSON for each condition")
-    compare.set_defaults(verb=verbs.compare)
+    compare.set_defaults(verb="compare")
 
 
 def _add_pack(pack: argparse.ArgumentParser) -> None:
     pack.add_argument("folder", type=Path, metavar="FOLDER", help="of the recipe")
     pack.add_argument("file", type=Path, metavar="FILE.zip", help="the zip to write")
     pack.add_argument("--renderings", action="store_true", help="with what was rendered, else without")
-    pack.set_defaults(verb=verbs.pack)
+    pack.set_defaults(verb="pack")
 
 
 def _add_unpack(unpack: argparse.ArgumentParser) -> None:
     unpack.add_argument("file", type=Path, metavar="FILE.zip", help="which pack wrote")
     unpack.add_argument("folder", type=Path, metavar="FOLDER", help="the recipe's new folder")
-    unpack.set_defaults(verb=verbs.unpack)
+    unpack.set_defaults(verb="unpack")
 
 
 def _add_folder(parser: argparse.ArgumentParser) -> None:

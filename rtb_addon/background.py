@@ -24,6 +24,8 @@ Kind = Literal["started", "progress", "done", "cached", "failed", "cancelled", "
 
 # What our children import and an extension brings in wheels of its own.
 _DEPENDENCIES = ("numpy", "lxml", "OpenEXR", "colour", "tqdm", "mitsuba", "drjit", "embreex", "llvm")
+# Children that were started before somebody asked for them, by what start_child will be told.
+_early: dict[tuple, subprocess.Popen] = {}
 _THREAD_COUNTS = ("OMP_NUM_THREADS", "OPENBLAS_NUM_THREADS", "MKL_NUM_THREADS", "VECLIB_MAXIMUM_THREADS")
 
 
@@ -99,6 +101,9 @@ def start_child(
     ----------
     threads : what numerical libraries may use; None leaves it to them
     """
+    early = _early.pop((module, *arguments, threads), None)
+    if early is not None and early.poll() is None:
+        return early
     return subprocess.Popen(
         [sys.executable, "-P", "-m", module, *arguments],
         stdin=subprocess.PIPE,
@@ -111,6 +116,19 @@ def start_child(
         start_new_session=True,
         creationflags=getattr(subprocess, "CREATE_NO_WINDOW", 0),
     )
+
+
+def start_early(arguments: list[str], module: str, threads: int | None = None) -> None:
+    """Start a child that start_child will soon be asked for in the same words; that one then returns it."""
+    with suppress(OSError):  # for whoever asks for it
+        _early[module, *arguments, threads] = start_child(arguments, module, threads)
+
+
+def stop_early() -> None:
+    """Stop the children that nobody has asked for."""
+    while _early:
+        with _early.popitem()[1] as process:  # whose pipes nobody reads
+            stop(process, 0)
 
 
 def import_folders() -> list[str]:

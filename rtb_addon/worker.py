@@ -109,6 +109,9 @@ class Desk:
 def main() -> None:
     """Render what the batch asks for until it asks no more."""
     desk = Desk(own_output())
+    # Only now: a worker listens to its parent before it imports what takes a while.
+    from .batch import rendering  # noqa: F401
+
     saver = Saver(desk)
     recipes: dict[tuple[str, str], Recipe] = {}
     while (task := desk.next_task()) is not None:
@@ -168,7 +171,6 @@ def attempt(condition: str, act: Callable[[], Any]) -> Any:
 
 
 def _rendered(task: Task, recipes: dict[tuple[str, str], Recipe], desk: Desk) -> Event | Unsaved:
-    # Only now: a worker listens to its parent before it imports what takes a second.
     from .batch.rendering import rendered
     from .batch.saving import Unsaved
 

@@ -7,7 +7,17 @@ from pathlib import Path
 
 import pytest
 
-from rtb_addon.background import Event, EventStream, import_folders, send, start_child, stop
+from rtb_addon import background
+from rtb_addon.background import (
+    Event,
+    EventStream,
+    import_folders,
+    send,
+    start_child,
+    start_early,
+    stop,
+    stop_early,
+)
 from rtb_addon.processes import runs
 
 SITTER = """
@@ -176,3 +186,27 @@ def test_every_public_name_is_there():
         assert getattr(rtb_addon, name).__name__ == name
     with pytest.raises(AttributeError, match="no attribute 'nonsense'"):
         _ = rtb_addon.nonsense
+
+
+def test_a_child_that_was_started_early_is_the_one_that_is_asked_for(sitter):
+    start_early([], "sitter")
+    early = sitter()
+    stream = EventStream(early)
+    assert "started" in [event.kind for event in events_until(stream, "started")]
+    assert EventStream(sitter()).process.pid != early.pid
+
+
+def test_a_child_that_died_early_is_replaced(sitter):
+    start_early([], "sitter")
+    dead = background._early["sitter", None]
+    with dead:
+        stop(dead, 0)
+    assert EventStream(sitter()).process.pid != dead.pid
+
+
+def test_a_child_that_nobody_asks_for_does_not_stay(sitter):
+    start_early([], "sitter")
+    early = background._early["sitter", None]
+    stop_early()
+    assert not runs(early.pid)
+    assert background._early == {}

@@ -1,4 +1,5 @@
 import json
+import os
 import shutil
 import signal
 import subprocess
@@ -187,6 +188,7 @@ def test_a_folder_that_may_only_be_read_is_one_sentence(write_family):
     # The superuser may write anywhere, so he becomes nobody once he has read all of the program.
     code = (
         "import encodings.utf_8_sig, os, sys; from rtb_addon.__main__ import main;"
+        "import rtb_addon.command_line;"
         "os.geteuid() or (os.setgid(65534), os.setuid(65534)); sys.exit(main(sys.argv[1:]))"
     )
     # pytest's own folders are closed to anybody else.
@@ -277,3 +279,15 @@ def test_import_reads_nothing_outside_the_named_folders(tmp_path, run, old_recip
     assert "../secret.spd was not found" in error
     assert not list((tmp_path / "new").rglob("secret.spd"))
     assert not list((tmp_path / "new").rglob("link.spd"))
+
+
+def test_a_worker_that_was_started_early_does_not_outlive_a_recipe_that_is_wrong(write_family, run):
+    assert run("render", write_family({"a": "nowhere.spd"}).folder)[0] == 2
+    children = Path(f"/proc/{os.getpid()}/task").glob("*/children")
+    assert not [file for file in children if file.read_text().split()]
+
+
+def test_help_imports_nothing_that_takes_a_while():
+    code = "import sys; from rtb_addon.__main__ import main; print('numpy' in sys.modules)"
+    done = subprocess.run([sys.executable, "-c", code], cwd=ROOT, capture_output=True, text=True, check=True)
+    assert done.stdout.strip() == "False"
