@@ -10,17 +10,19 @@ import numpy as np
 
 from ...errors import RecipeError
 from ...scene.render_scene import Light
-from ...spectra import FloatArray
+from ...spectra import FloatArray, Spectrum, Unit
 from ..pictures import sky_gamma
 from .camera_xml import matrix
-from .lights_xml import Span, intensity_of
+from .lights_xml import Span, intensity_of, light
 from .names import Names
-from .spectrum_xml import element, format_spectrum, plugin_remark
+from .spectrum_xml import comment, element, format_spectrum, plugin_remark
 from .textures_xml import AROUND
 
 
 def environment(lamp: Light, names: Names, span: Span, folder: Path) -> list[Xml.Element]:
     """Return the environment's elements, none if it is dark; files are seen from a folder."""
+    if lamp.kind == "sunsky":
+        return _sunsky(lamp, names, span, folder)
     if lamp.kind != "environment":
         raise RecipeError(f"Mitsuba knows no {lamp.kind} around a scene, make {lamp.id} an environment")
     intensity = intensity_of(lamp)
@@ -36,6 +38,23 @@ def environment(lamp: Light, names: Names, span: Span, folder: Path) -> list[Xml
     node = element("emitter", "constant", id=place)
     node.append(format_spectrum("radiance", intensity, span))
     return [node]
+
+
+def _sunsky(lamp: Light, names: Names, span: Span, folder: Path) -> list[Xml.Element]:
+    """Return a sky of Mitsuba's own as a picture, and its sun as a disc."""
+    from .sunsky import ANGLE, bake
+
+    turbidity = lamp.parameters["turbidity"]
+    if not isinstance(turbidity, int | float):
+        raise RecipeError(f"light {lamp.id} has {turbidity} as its turbidity, give a number")
+    turn = _turn(lamp)
+    found = bake(turn[:3, 2], turbidity, folder)
+    even = {"intensity": Spectrum.constant(1.0, Unit.RADIANCE), "filename": str(found.sky)}
+    # The picture is that of the world; the light stands where the sun does and shines down from there.
+    sky = Light(lamp.id, "environment", np.eye(4), even)
+    sun = Light(f"{lamp.id}-sun", "directional", turn, {"intensity": found.sun, "angle": ANGLE})
+    said = comment(f"{lamp.id} is Mitsuba's sunsky of turbidity {turbidity:g}, in 512 x 256 directions")
+    return [said, *environment(sky, names, span, folder), *light(sun, names, span)]
 
 
 def _picture(file: str, folder: Path) -> Xml.Element:
