@@ -2,7 +2,7 @@
 
 from bpy.utils import register_classes_factory
 
-from . import call_tooltips, command, image_editor, running, watching
+from . import call_tooltips, command, image_editor, render_engine, running, watching
 from .add_condition import RTB_OT_add_condition
 from .add_variable import RTB_OT_add_variable
 from .cancel_rendering import RTB_OT_cancel_rendering
@@ -124,6 +124,7 @@ def register() -> None:
     _register()
     image_editor.register()
     running.register()
+    render_engine.register()
     watching.register()
     command.register()
 
@@ -132,6 +133,7 @@ def unregister() -> None:
     """Stop what is rendering and take the operators back."""
     command.unregister()
     watching.unregister()
+    render_engine.unregister()
     running.unregister()
     image_editor.unregister()
     _unregister()

@@ -4,12 +4,11 @@ from __future__ import annotations
 
 import os
 import time
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from contextlib import suppress
 from pathlib import Path
 
 from ..rtb_addon.background import Event, EventStream, start_child, stop
-from . import row_states
 from .preferences import arguments
 
 GRACE = 0.5  # [s] that a child has to stop when asked, before it is ended
@@ -24,10 +23,17 @@ class ChildBatch:
     ----------
     folder : of the recipe
     conditions : names of those to render; all where there are none
+    heard : called with each event's condition and kind
     """
 
-    def __init__(self, folder: Path, conditions: Sequence[str] = ()) -> None:
+    def __init__(
+        self,
+        folder: Path,
+        conditions: Sequence[str] = (),
+        heard: Callable[[str, str], None] = lambda condition, kind: None,
+    ) -> None:
         self.folder = folder
+        self._heard = heard
         self.finished = self.total = 0
         self.remaining: float | None = None
         self.failures: list[str] = []
@@ -100,7 +106,7 @@ class ChildBatch:
         elif event.condition:
             self.under_way.pop(event.condition, None)
         if event.condition:
-            row_states.take(event.condition, event.kind)
+            self._heard(event.condition, event.kind)
         if event.kind == "failed":
             self.failures.append(": ".join(filter(None, (event.condition, event.message))))
         if event.kind == "finished" and event.file:

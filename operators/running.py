@@ -28,7 +28,7 @@ def start(folder: Path, conditions: Sequence[str] = ()) -> ChildBatch:
     from .child_batch import ChildBatch  # brings subprocess and more, which enabling need not wait for
 
     global batch
-    batch = ChildBatch(folder, conditions)
+    batch = ChildBatch(folder, conditions, row_states.take)
     if not bpy.app.background:
         bpy.app.timers.register(_look, first_interval=INTERVAL, persistent=True)
     return batch

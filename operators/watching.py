@@ -10,6 +10,7 @@ import bpy
 
 from ..rtb_addon.blender import migration, preview
 from .preferences import begin_file
+from .render_engine import ENGINE
 
 
 @bpy.app.handlers.persistent
@@ -36,6 +37,11 @@ def _after_loading(*_) -> None:
     begin_file()
 
 
+@bpy.app.handlers.persistent
+def _before_rendering(scene, *_) -> None:
+    preview.begin_rendering(scene, scene.render.engine == ENGINE)
+
+
 def _watched() -> dict:
     """Return what is called when; saving can fail, in versions of Blender that say so."""
     return {
@@ -47,7 +53,7 @@ def _watched() -> dict:
         "undo_post": _show_again,
         "redo_pre": _take_back,
         "redo_post": _show_again,
-        "render_init": _take_back,
+        "render_init": _before_rendering,
         "render_complete": _show_again,
         "render_cancel": _show_again,
     }

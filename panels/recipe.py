@@ -38,16 +38,10 @@ class RTB_PT_recipe(bpy.types.Panel):
 
 
 def draw_options(layout, scene) -> None:
-    """Draw where the recipe goes and how it is rendered."""
+    """Draw what the recipe is called and where it goes."""
     settings = scene.rtb
     layout.prop(settings, "name", placeholder=recipe_name(scene))
     layout.prop(settings, "folder")
-    layout.prop(settings, "renderer")
-    column = layout.column(align=True)
-    column.prop(scene.render, "resolution_x", text="Width")
-    column.prop(scene.render, "resolution_y", text="Height")
-    column.prop(scene.render, "resolution_percentage", text="%")
-    layout.prop(settings, "samples")
 
 
 def draw_run(layout) -> None:
@@ -95,14 +89,6 @@ class Details:
             column = self.layout.column(align=True)
             for name in names:
                 column.prop(context.scene.rtb, name)
-
-
-class RTB_PT_light_paths(Details, bpy.types.Panel):
-    """How far light is followed, and in which bands"""
-
-    bl_idname = "RTB_PT_light_paths"
-    bl_label = "Light Paths and Bands"
-    properties = (("integrator", "depth"), ("seed",), ("bands_start", "bands_step", "bands_count"))
 
 
 class RTB_PT_montage(Details, bpy.types.Panel):

@@ -54,6 +54,11 @@ def to_rec709(space: str) -> FloatArray:
     return np.linalg.solve(_to_xyz(_REC709), adapted @ _to_xyz(space))
 
 
+def xyz_to_working_space() -> FloatArray:
+    """(3, 3) array that brings X, Y, Z to Blender's working space, whose red, green and blue of 1 have Y 1"""
+    return np.linalg.solve(to_rec709(working_space()), np.linalg.inv(_to_xyz(_REC709)))
+
+
 def _to_xyz(space: str) -> FloatArray:
     *primaries, white = SPACES[space]
     columns = np.column_stack([_xyz(*each) for each in primaries])

@@ -42,6 +42,13 @@ def refresh() -> None:
         _state["problems"] = show(bpy.context.scene) if is_on() else []
 
 
+def begin_rendering(scene, of_ours: bool) -> None:
+    """Take the preview back, for Blender renders; an engine of ours is shown the active condition instead."""
+    with _paused():
+        take_back()
+        _state["problems"] = _show_properties(scene) if of_ours else []
+
+
 def problems() -> list[str]:
     """Return a sentence for each thing that the preview cannot show."""
     return _state["problems"]
@@ -49,6 +56,13 @@ def problems() -> list[str]:
 
 def show(scene) -> list[str]:
     """Show a scene's active condition; return a sentence for each thing that cannot be shown."""
+    if scene.rtb.active_condition >= len(scene.rtb.conditions):
+        return []
+    return _show_properties(scene) + _show_spectra(scene)
+
+
+def _show_properties(scene) -> list[str]:
+    """Let properties be what the active condition says; spectra of materials and lights are none."""
     settings, problems = scene.rtb, []
     if settings.active_condition >= len(settings.conditions):
         return problems
@@ -62,7 +76,7 @@ def show(scene) -> list[str]:
     camera = bpy.data.objects.get(cells.get(_CAMERA, ""))
     if camera is not None and camera.type == "CAMERA":
         _set(scene, scene, _CAMERA, -1, found_at(scene, _CAMERA, -1, _CAMERA), camera)
-    return problems + _show_spectra(scene)
+    return problems
 
 
 def take_back(scenes=None) -> None:

@@ -31,6 +31,19 @@ INTEGRATORS = (
     ("path", "Path", "Light that is reflected many times", 1),
     ("direct", "Direct", "Light that comes straight from a lamp", 2),
 )
+FILTERS = (
+    ("box", "Box", "Each path counts for the pixel that it goes through", 1),
+    ("tent", "Tent", "Falls straight to nothing within a pixel", 2),
+    ("gaussian", "Gaussian", "Half a pixel wide, cut off at two pixels", 3),
+    ("mitchell", "Mitchell", "Sharper than a Gaussian, with little ringing", 4),
+    ("catmullrom", "Catmull-Rom", "Sharp, with some ringing", 5),
+    ("lanczos", "Lanczos", "Sharpest, with three lobes of ringing", 6),
+)
+BAND_KINDS = (
+    ("averaged", "Averaged", "Each spectrum is averaged over a band, then multiplied along the path", 1),
+    ("mean", "Mean", "The true mean over a band of what comes out", 2),
+    ("centre", "Centre", "The values at a band's centre", 3),
+)
 FILLS = (
     ("columns", "Down the Columns", "Conditions go down the columns, as in RenderToolbox3", 1),
     ("rows", "Along the Rows", "Conditions go along the rows, as the patches of a chart", 2),
@@ -82,13 +95,23 @@ class RTB_PG_scene(bpy.types.PropertyGroup):
     )
     renderer: EnumProperty(name="Renderer", items=RENDERERS, default="mitsuba")
     samples: IntProperty(name="Samples", description="Light paths per pixel", default=64, min=1)
+    until_error: FloatProperty(
+        name="Until Noise",
+        description="Stop once the relative noise is this low, even before all samples; 0 takes them all",
+        default=0.0,
+        min=0.0,
+        soft_max=0.1,
+        precision=3,
+    )
     seed: IntProperty(name="Seed", description="Of the random numbers, for all conditions", min=0)
+    filter: EnumProperty(name="Filter", items=FILTERS, default="box")
     integrator: EnumProperty(name="Light Paths", items=INTEGRATORS, default="path")
     depth: IntProperty(
         name="Depth", description="Longest light path; 2 is direct light", default=6, min=1, soft_max=64
     )
     bands_start: FloatProperty(name="First Band (nm)", default=400.0, min=1.0, precision=1)
     bands_step: FloatProperty(name="Band Width (nm)", default=10.0, min=0.01, precision=1)
+    band_kind: EnumProperty(name="Band Values", items=BAND_KINDS, default="averaged")
     bands_count: IntProperty(name="Bands", default=31, min=1, soft_max=100)
     montage_columns: IntProperty(
         name="Montage Columns", description="0: as square as may be", default=0, min=0

@@ -3,8 +3,8 @@
 from __future__ import annotations
 
 from collections import Counter
-from collections.abc import Mapping, Sequence
-from dataclasses import dataclass
+from collections.abc import Callable, Mapping, Sequence
+from dataclasses import dataclass, replace
 from pathlib import Path
 
 import bpy
@@ -23,12 +23,13 @@ from .migration import refuse_newer
 from .parent import Parent, ParentWriter
 from .path_mappings import paths_text
 from .preview import suspended
-from .seen import seen_in
+from .seen import Seen, seen_in
 from .table import SpectrumFiles, Table, mappings_text
 from .varied import set_value, subject_of, value_at
 from .written_mappings import written_mappings
 
 _CAMERA = "camera"
+STILL = "still"  # the folder, below the recipe's, of what Blender's own Render Image renders
 
 
 @dataclass(frozen=True)
@@ -101,15 +102,37 @@ def read_recipe(scene: bpy.types.Scene, remodel: Remodel | None = None) -> Scene
         return _read(scene, remodel)
 
 
+def read_rendered(scene: bpy.types.Scene, depsgraph) -> SceneRecipe:
+    """
+    Return the recipe of a scene's active condition alone, in a folder of its own below the recipe's.
+
+    Parameters
+    ----------
+    depsgraph : the scene as a render engine is shown it, with its properties as the condition sets them
+    """
+    refuse_newer(scene)
+    table = _table(scene, recipe_name(scene))
+    if table.names:
+        row = min(scene.rtb.active_condition, len(table.names) - 1)
+        table = Table(table.variables, [table.names[row]], [table.cells[row]])
+    found = _recipe(scene, table, [_looked(scene, seen_in(depsgraph))], told_apart)
+    return replace(found, folder=recipe_folder(scene) / STILL)
+
+
 def _read(scene, remodel: Remodel | None) -> SceneRecipe:
-    name = recipe_name(scene)
-    table, files = _table(scene, name), SpectrumFiles()
-    looks = _looks(scene, table, remodel)
+    table = _table(scene, recipe_name(scene))
+    tell_apart = told_apart if remodel is None else lambda contents: Told(contents, {})
+    return _recipe(scene, table, _looks(scene, table, remodel), tell_apart)
+
+
+def _recipe(
+    scene, table: Table, looks: list[_Look], tell_apart: Callable[[list[bytes]], Told]
+) -> SceneRecipe:
+    name, files = recipe_name(scene), SpectrumFiles()
     camera = _name_cameras(table, looks)
     parents = [each.parent for each in looks]
     names = table.names if len(looks) > 1 else [name]
-    contents = [each.content for each in parents]
-    told = told_apart(contents) if remodel is None else Told(contents, {})
+    told = tell_apart([each.content for each in parents])
     cells, further = parent_files(names, told.contents)
     if further:
         table.varied(PARENT_COLUMNS[0], cells)
@@ -159,7 +182,11 @@ def _look(scene) -> _Look:
     """Return the scene as it is now."""
     if scene.camera is None:
         raise RecipeError(f"the scene {scene.name} has no camera, add one")
-    seen = as_rendered(scene, seen_in)
+    return _looked(scene, as_rendered(scene, seen_in))
+
+
+def _looked(scene, seen: Seen) -> _Look:
+    """Return a scene as an engine has been shown it."""
     parent = ParentWriter(seen, scene.name, f"RenderToolbox in Blender {bpy.app.version_string}").write()
     if not any(each.category == "light" for each in parent.statements):
         raise RecipeError(f"the scene {scene.name} has no light, add a lamp or let a mesh or the world shine")
@@ -192,7 +219,10 @@ def _options(scene, camera: str) -> RecipeOptions:
         height=settings.height,
         bands=(shortest(settings.bands_start), shortest(settings.bands_step), settings.bands_count),
         samples=settings.samples,
+        until_error=shortest(settings.until_error) or None,
         seed=settings.seed,
+        filter=settings.filter,
+        band_kind=settings.band_kind,
         integrator=settings.integrator,
         depth=settings.depth,
         camera=camera,

@@ -56,11 +56,7 @@ def test_the_recipes_panel_offers_what_can_be_done(panel, running):
         *("rtb.render_recipe", "rtb.render_condition", "rtb.check_recipe"),
         *("rtb.show_montage", "rtb.open_folder", "rtb.export_recipe", "rtb.pack_recipe"),
     ]
-    assert layout.names("prop") == [
-        *("name", "folder", "renderer"),
-        *("resolution_x", "resolution_y", "resolution_percentage"),
-        "samples",
-    ]
+    assert layout.names("prop") == ["name", "folder"]
 
 
 @pytest.mark.parametrize(
@@ -96,9 +92,19 @@ def test_many_errors_do_not_push_the_panel_off_the_screen(panel, running):
     assert "34 more" in labels[-1]
 
 
-@pytest.mark.parametrize("name", ["RTB_PT_light_paths", "RTB_PT_montage"])
-def test_the_recipes_details_draw_properties_that_exist(panel, running, name):
-    assert panel("recipe", name).names("prop")
+def test_the_recipes_details_draw_properties_that_exist(panel, running):
+    assert panel("recipe", "RTB_PT_montage").names("prop") == ["montage_columns", "montage_fill"]
+
+
+@pytest.mark.parametrize("engine", ["CYCLES", "RENDERTOOLBOX"])
+def test_how_to_render_stands_in_the_render_tab_whatever_the_engine(panel, engine):
+    bpy.context.scene.render.engine = engine
+    layout = panel("render_settings", "RTB_PT_render_settings")
+    assert layout.names("prop") == [
+        *("renderer", "samples", "until_error", "bands_count", "bands_start", "bands_step"),
+        *("integrator", "depth", "seed", "filter", "band_kind"),
+    ]
+    assert ("view transform" in " ".join(layout.names("label"))) == (engine == "RENDERTOOLBOX")
 
 
 SPECTRAL = [

@@ -22,6 +22,7 @@ FLOORS = {
     "rtb_addon/renderers": 4,
     "rtb_addon/recipe": 4,
     "rtb_addon/probing.py": 4,
+    "rtb_addon/developing.py": 4,
     "rtb_addon/views.py": 4,
     "rtb_addon/colorimetry.py": 3,
     "rtb_addon/colour_difference.py": 3,
