@@ -22,6 +22,8 @@ class Fidelity(NamedTuple):
 
 EXACT = Fidelity("exact")
 ABSENT = Fidelity("absent")
+# Its sky is a picture, its sun a disc.
+_IN_TEXELS = Fidelity("approximate", "the sky is seen in 512 x 256 directions, and as at 720 nm beyond")
 # Mitsuba looks a measured surface up at a wavelength.
 _AT_MIDDLES = Fidelity("approximate", "a band, or a tenth of one for the kind mean, is seen at its middle")
 
@@ -51,6 +53,7 @@ TABLE: Mapping[str, Mapping[str, Fidelity]] = {
     "light directional": {"mitsuba": EXACT, "tracer": EXACT},
     "light area": {"mitsuba": EXACT, "tracer": EXACT},
     "light environment": {"mitsuba": EXACT, "tracer": EXACT},
+    "light sunsky": {"mitsuba": _IN_TEXELS},
     "light environment picture": {"mitsuba": EXACT, "tracer": EXACT},
     "texture checkerboard": {"mitsuba": EXACT, "tracer": EXACT},
     "texture bitmap": {"mitsuba": EXACT, "tracer": EXACT},

@@ -32,16 +32,13 @@ def stock(scene_of, samples, seeds):
     return np.stack([np.array(mi.render(loaded, spp=samples, seed=seed)) for seed in seeds])
 
 
+def table(low, high, values):
+    words = ", ".join(map(str, values))
+    return {"type": "regular", "wavelength_min": low, "wavelength_max": high, "values": words}
+
+
 def film(size):
-    bands = {
-        f"b{k:02d}": {
-            "type": "regular",
-            "wavelength_min": c - 0.5,
-            "wavelength_max": c + 0.5,
-            "values": "1, 1",
-        }
-        for k, c in enumerate(BANDS.centres.tolist())
-    }
+    bands = {f"b{k:02d}": table(c - 0.5, c + 0.5, [1, 1]) for k, c in enumerate(BANDS.centres.tolist())}
     shape = {"width": size, "height": size, "component_format": "float32", "rfilter": {"type": "box"}}
     return {"type": "specfilm", **shape, **bands}
 
@@ -75,10 +72,7 @@ def test_a_plane_under_sun_and_sky_is_as_bright_as_under_mitsubas_own(tmp_path):
     ours = lit(one, tmp_path)
 
     def made(mi):
-        values = [
-            {"type": "regular", "wavelength_min": 360.0, "wavelength_max": 830.0, "values": text}
-            for text in [", ".join(map(str, REFLECTANCE.at(np.linspace(360, 830, 471)).tolist()))]
-        ]
+        paint = table(360.0, 830.0, REFLECTANCE.at(np.linspace(360, 830, 471)).tolist())
         wide = mi.ScalarTransform4f().scale(50.0)
         return {
             "type": "scene",
@@ -87,7 +81,7 @@ def test_a_plane_under_sun_and_sky_is_as_bright_as_under_mitsubas_own(tmp_path):
             "floor": {
                 "type": "rectangle",
                 "to_world": wide,
-                "bsdf": {"type": "diffuse", "reflectance": values[0]},
+                "bsdf": {"type": "diffuse", "reflectance": paint},
             },
             "sensor": {
                 "type": "perspective",
