@@ -1,164 +1,178 @@
 """
-The lobe path against stock Mitsuba, in one interleaved run: time of 31 bands over the time of one rgb render.
+The lobe path against stock Mitsuba, in one interleaved run, and what a family of conditions costs.
 
-    python benchmarks/lobe_path.py [rounds] [size] [samples] [threads] [material of the small block]
+    python benchmarks/lobe_path.py [rounds] [size] [threads] [material of the block]
 
-Prints, for a Cornell-like box with a block that is matte, or metal, roughplastic or anisoward, each way's
-processor time over that of a stock rgb render of equal samples, and its efficiency,
-1 / (relative mean squared error x time), over that of the stock spectral film. The lobe path's time includes
-reading and loading the scene anew; the stock ways are given theirs loaded.
+For a Cornell-like box and for a mesh of 326 432 triangles under a picture of the sky, each with a block that
+is metal, matte, roughplastic or anisoward, it prints for each way of rendering
+
+- its processor time over that of a stock rgb render of equal samples, which has 3 numbers a pixel, not 31;
+- its efficiency, 1 / (relative mean squared error x time), over that of the stock spectral film, with the
+  same sampler and as shipped: by the mean error over pixels and bands, and by their median.
+
+Then what each condition of a family takes: loading, compiling and following paths.
 """
 
 import sys
 import tempfile
 import time
+from functools import partial
 from pathlib import Path
+from xml.etree import ElementTree as Xml
 
+import lobe_scenes
 import numpy as np
 
 from rtb_addon.renderers.interface import RenderOptions
 from rtb_addon.renderers.mitsuba import llvm, renderer, session
 from rtb_addon.renderers.mitsuba.native import read_native
 from rtb_addon.renderers.mitsuba.one_hot import one_hot
-from rtb_addon.scene.render_scene import (
-    Camera,
-    Film,
-    Integrator,
-    Material,
-    Mesh,
-    RenderScene,
-    Shape,
+
+SPECTRAL = "llvm_ad_spectral"
+YARDSTICK, FILM, FILM_AS_SHIPPED = (
+    "stock rgb, 3 numbers",
+    "stock specfilm, multijitter",
+    "stock specfilm as shipped",
 )
-from rtb_addon.spectra import Spectrum
-
-WAVELENGTHS = np.arange(360.0, 831.0, 5.0)
-SQUARE = Mesh(
-    np.array([[-1, -1, 0], [1, -1, 0], [1, 1, 0], [-1, 1, 0]], np.float32),
-    np.array([[0, 1, 2], [0, 2, 3]], np.int32),
-)
-REFLECTANCES = {
-    "white": 0.72 + 0.06 * np.sin((WAVELENGTHS - 400) / 60),
-    "red": 0.06 + 0.6 / (1 + np.exp(-(WAVELENGTHS - 600) / 12)),
-    "green": 0.05 + 0.45 * np.exp(-(((WAVELENGTHS - 530) / 35) ** 2)),
-    "tall": 0.35 + 0.55 / (1 + np.exp(-(WAVELENGTHS - 510) / 20)),
-    "small": 0.1 + 0.5 * np.exp(-(((WAVELENGTHS - 460) / 30) ** 2)),
-    "dark": np.zeros_like(WAVELENGTHS),
-}
-INDICES = {
-    "eta": np.interp(WAVELENGTHS, [450, 600], [1.5, 0.25]),
-    "k": np.interp(WAVELENGTHS, [500, 700], [1.9, 3.8]),
-}
-GLOSSY = {
-    "matte": {},
-    "metal": {**{name: Spectrum(WAVELENGTHS, values) for name, values in INDICES.items()}, "roughness": 0.15},
-    "roughplastic": {"intIOR": 1.5, "extIOR": 1.0, "roughness": 0.15},
-    "anisoward": {
-        "specularReflectance": Spectrum.constant(0.3),
-        "alphaU": 0.15,
-        "alphaV": 0.15,
-        "variant": "ward",
-    },
-}
-LAMP = 8 * (0.6 + 0.5 / (1 + np.exp(-(WAVELENGTHS - 560) / 60))) * (1 + 0.2 * np.sin(WAVELENGTHS / 23))
+AVERAGED, MEAN = "lobe path, averaged", "lobe path, mean"
+# Squares, which jitter spreads evenly.
+SAMPLES = {"box": 64, "mesh": 144}
+FAMILY_SAMPLES = 16
 
 
-def placed(where, axis="z", degrees=0.0, scale=(1.0, 1.0, 1.0)):
-    angle = np.radians(degrees)
-    matrix, (i, j) = np.eye(4), {"x": (1, 2), "y": (2, 0), "z": (0, 1)}[axis]
-    matrix[[i, i, j, j], [i, j, i, j]] = np.cos(angle), -np.sin(angle), np.sin(angle), np.cos(angle)
-    matrix[:3, :3] = matrix[:3, :3] @ np.diag(scale)
-    matrix[:3, 3] = where
-    return matrix
+def stock(native, samples, threads, variant, sampler):
+    """Return a function of the seed that renders a native scene the way stock Mitsuba does."""
+    mi = session.start(variant, threads)
+    root = as_rgb(native) if variant == session.FAST else Xml.parse(native).getroot()
+    for node in root.iter("sampler"):
+        node.set("type", sampler)
+        for child in [child for child in node if sampler == "independent" and child.get("name") == "seed"]:
+            node.remove(child)
+    for node in root.iter("string"):
+        if node.get("name") == "filename":
+            node.set("value", str((native.parent / node.get("value")).resolve()))
+    for emitter in [node for node in root if node.get("type") == "skypicture"]:
+        root[list(root).index(emitter)] = envmap(emitter)
+    scene = mi.load_string(Xml.tostring(root, encoding="unicode"))
+    return lambda seed: np.array(mi.render(scene, spp=samples, seed=seed))
 
 
-def cube():
-    turns = [("x", 0), ("x", 90), ("x", 180), ("x", 270), ("y", 90), ("y", 270)]
-    faces = [SQUARE.vertices @ placed((0, 0, 0), *turn)[:3, :3].T for turn in turns]
-    faces = [face + placed((0, 0, 0), *turn)[:3, 2] for face, turn in zip(faces, turns, strict=True)]
-    triangles = [SQUARE.triangles + 4 * k for k in range(6)]
-    return Mesh(np.concatenate(faces).astype(np.float32), np.concatenate(triangles).astype(np.int32))
+def as_rgb(native):
+    """Return a native scene for rgb variants, with some colour in the place of each spectrum."""
+    root = Xml.fromstring(one_hot(read_native(native)).xml)
+    integrator = Xml.SubElement(root, "integrator", type="path")
+    for name, depth in (("max_depth", "6"), ("rr_depth", "7")):
+        Xml.SubElement(integrator, "integer", name=name, value=depth)
+    return root
 
 
-def box(size, samples, small="matte"):
-    lamp = Spectrum(WAVELENGTHS, LAMP)
-    shapes = [
-        Shape("floor", SQUARE, placed((0, -1, 0), "x", -90), "white"),
-        Shape("ceiling", SQUARE, placed((0, 1, 0), "x", 90), "white"),
-        Shape("back", SQUARE, placed((0, 0, -1)), "white"),
-        Shape("left", SQUARE, placed((-1, 0, 0), "y", 90), "red"),
-        Shape("right", SQUARE, placed((1, 0, 0), "y", -90), "green"),
-        Shape("tall", cube(), placed((-0.35, -0.4, -0.35), "y", 20, (0.3, 0.6, 0.3)), "tall"),
-        Shape("small", cube(), placed((0.35, -0.7, 0.3), "y", -17, (0.3, 0.3, 0.3)), "small"),
-        Shape("lamp", SQUARE, placed((0, 0.99, 0), "x", 90, (0.25, 0.25, 1)), "dark", lamp),
-    ]
-    materials = {
-        name: Material(name, "matte", {"diffuseReflectance": Spectrum(WAVELENGTHS, values)})
-        for name, values in REFLECTANCES.items()
-    }
-    paint = materials["small"].parameters if small != "metal" else {}
-    materials["small"] = Material("small", small, {**paint, **GLOSSY[small]})
-    half = np.tan(np.radians(39.3 / 2))
-    camera = Camera("Camera", "perspective", placed((0, 0, 3.9)), (-half, half, -half, half), (0.01, 100))
-    integrator = Integrator(samples=samples, depth=6)
-    return RenderScene(camera, tuple(shapes), materials, film=Film(size, size), integrator=integrator)
+def envmap(ours):
+    """Return the nearest that stock Mitsuba has to a picture of the sky of ours."""
+    node = Xml.Element("emitter", type="envmap")
+    file = next(each.get("value") for each in ours.iter("string") if each.get("name") == "filename")
+    Xml.SubElement(node, "string", name="filename", value=str(Path(file).with_suffix(".pfm")))
+    turn = Xml.SubElement(node, "transform", name="to_world")
+    Xml.SubElement(turn, "rotate", x="1", angle="90")
+    Xml.SubElement(turn, "rotate", z="1", angle="90")
+    return node
+
+
+def lobe(native, threads, kind):
+    """Return a function of the seed that renders a native scene the way we do, reading it anew."""
+    text = native.read_text().replace('name="band_kind" value="averaged"', f'name="band_kind" value="{kind}"')
+    copy = native.with_name(f"{native.stem}-{kind}.xml")
+
+    def render(seed):
+        copy.write_text(text.replace('name="seed" value="0"', f'name="seed" value="{seed}"'))
+        return renderer().render(copy, RenderOptions(threads), lambda fraction: None).radiance
+
+    return render
 
 
 def ways(native, samples, threads):
-    """Return each way by name, a function of the seed that returns an image; the first is the yardstick."""
-    mi = session.start("llvm_ad_spectral", threads)
-    spectral = mi.load_file(str(native))
-    mi = session.start(session.FAST, threads)
-    rgb = mi.load_string(one_hot(read_native(native)).xml)
-    path = mi.load_dict({"type": "path", "max_depth": 6, "rr_depth": 7})
-    text = native.read_text()
-
-    def lobe(seed):
-        native.write_text(text.replace('name="seed" value="0"', f'name="seed" value="{seed}"'))
-        return renderer().render(native, RenderOptions(threads), lambda fraction: None).radiance
-
-    def stock(variant, scene, **how):
-        def render(seed):
-            mi = session.start(variant, threads)
-            return np.array(mi.render(scene, spp=samples, seed=seed, **how))
-
-        return render
-
+    """Return the variant and the function of the seed of each way, by name."""
+    of = partial(stock, native, samples, threads)
     return {
-        "stock rgb, 3 numbers": stock(session.FAST, rgb, integrator=path),
-        "stock specfilm, 31 bands": stock("llvm_ad_spectral", spectral),
-        "lobe path, 31 bands": lobe,
+        YARDSTICK: (session.FAST, of(session.FAST, "multijitter")),
+        FILM_AS_SHIPPED: (SPECTRAL, of(SPECTRAL, "independent")),
+        FILM: (SPECTRAL, of(SPECTRAL, "multijitter")),
+        AVERAGED: (session.FAST, lobe(native, threads, "averaged")),
+        MEAN: (session.FAST, lobe(native, threads, "mean")),
     }
 
 
-def main(rounds=5, size=128, samples=64, threads=1, small="matte"):
+def measured(found, rounds, threads):
+    """Return the seconds and the pictures of each way, one round after the other."""
+    seconds, images = {name: [] for name in found}, {name: [] for name in found}
+    for turn in range(rounds + 1):
+        for name, (variant, render) in found.items():
+            session.start(variant, threads)
+            start = time.process_time()
+            image = render(turn)
+            # The first round compiles.
+            if turn:
+                seconds[name].append(time.process_time() - start)
+                images[name].append(image)
+    return {name: min(each) for name, each in seconds.items()}, images
+
+
+def errors(images):
+    """Return the mean and the median over pixels and bands of the relative squared error."""
+    # What is nearly black counts for little.
+    mean = np.mean(images, axis=0, dtype=float)
+    relative = np.var(images, axis=0, ddof=1) / (mean + 0.05 * mean.mean(axis=(0, 1))) ** 2
+    return np.array([relative.mean(), np.median(relative)])
+
+
+def compare(title, native, samples, rounds, threads):
+    seconds, images = measured(ways(native, samples, threads), rounds, threads)
+    efficiency = {name: 1 / (errors(images[name]) * seconds[name]) for name in seconds if name != YARDSTICK}
+    print(
+        f"\n| {title}, {samples} samples | time [s] | over rgb | efficiency over specfilm | and as shipped |"
+    )
+    print("| --- | --- | --- | --- | --- |")
+    for name, each in seconds.items():
+        cells = ["", ""]
+        if name in efficiency:
+            ratios = (efficiency[name] / efficiency[other] for other in (FILM, FILM_AS_SHIPPED))
+            cells = [f"{mean:.1f} mean, {median:.1f} median" for mean, median in ratios]
+        print(f"| {name} | {each:.3f} | {each / seconds[YARDSTICK]:.2f} | {' | '.join(cells)} |")
+
+
+def family(title, conditions, folder, threads):
+    print(
+        f"\n| {title}, {FAMILY_SAMPLES} samples"
+        " | loading [s] | compiling [s] | rendering [s] | kernels compiled |"
+    )
+    print("| --- | --- | --- | --- | --- |")
+    for name, scene in conditions.items():
+        native = renderer().translate(scene, (), folder, title.replace(" ", "-"))
+        facts = renderer().render(native, RenderOptions(threads), lambda fraction: None).attributes
+        spans = [facts[f"seconds_{what}"] for what in ("loading", "compiling", "rendering")]
+        print(f"| {name} | {' | '.join(spans)} | {facts['kernels_compiled']} |")
+
+
+def main(rounds=6, size=128, threads=1, glossy="metal"):
     if llvm.prepare() is None:
         raise SystemExit("no LLVM works here")
-    with tempfile.TemporaryDirectory() as folder:
-        native = renderer().translate(box(size, samples, small), (), Path(folder), "box")
-        found = ways(native, samples, threads)
-        seconds, images = {name: [] for name in found}, {name: [] for name in found}
-        for turn in range(rounds + 1):
-            for name, render in found.items():
-                start = time.process_time()
-                image = render(turn)
-                # The first round compiles.
-                if turn:
-                    seconds[name].append(time.process_time() - start)
-                    images[name].append(image)
-    yardstick = min(seconds["stock rgb, 3 numbers"])
-    mean = np.mean(images["lobe path, 31 bands"], axis=0, dtype=float)
-    scale = (mean + 0.05 * mean.mean(axis=(0, 1))) ** 2
-    efficiency = {
-        name: 1 / (np.mean(np.var(images[name], axis=0, ddof=1) / scale) * min(seconds[name]))
-        for name in list(found)[1:]
-    }
-    for name in found:
-        line = f"{name:26} {min(seconds[name]):6.3f} s   {min(seconds[name]) / yardstick:5.2f} x rgb"
-        if name in efficiency:
-            ratio = efficiency[name] / efficiency["stock specfilm, 31 bands"]
-            line += f"   efficiency {ratio:5.1f} x specfilm"
-        print(line)
+    other = {"tall": lobe_scenes.REFLECTANCES["green"]}
+    with tempfile.TemporaryDirectory() as name:
+        folder = Path(name)
+        scenes = {"box": lobe_scenes.box, "mesh": partial(lobe_scenes.mesh, picture=lobe_scenes.sky(folder))}
+        for title, make in scenes.items():
+            native = renderer().translate(make(size, SAMPLES[title], glossy=glossy), (), folder, title)
+            compare(title, native, SAMPLES[title], rounds, threads)
+        for title, make in scenes.items():
+            few = partial(make, size, FAMILY_SAMPLES, glossy=glossy)
+            conditions = {
+                "the first": few(),
+                "the same again": few(),
+                "another spectrum": few(changed=other),
+                "moved": few(moved=0.2),
+                "moved again": few(moved=0.4),
+            }
+            family(f"a family of the {title}", conditions, folder, threads)
 
 
 if __name__ == "__main__":
-    main(*map(int, sys.argv[1:5]), *sys.argv[5:])
+    main(*map(int, sys.argv[1:4]), *sys.argv[4:])
