@@ -9,8 +9,11 @@ can do stands in meeting.py; matte.py, ward.py, metal.py and so on are the kinds
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from pathlib import Path
 
+from ...errors import RenderingError
+from ...layers import Layers
 from ...scene.render_scene import RenderScene
 from ...spectral_image import SpectralImage
 from ..interface import Extras, Installed, RenderOptions, Report
@@ -40,7 +43,7 @@ class Tracer:
         """Render a native scene [W sr-1 m-2 nm-1]; the same file gives the same bits on every run."""
         scene = native.read(native_file)
         report(0.0)
-        painter = passes.Alone(scene) if options.threads == 1 else Together(native_file, options.threads)
+        painter = _painter(native_file, scene, options)
         rounds = passes.render(scene, painter, options, report)
         attributes = {
             "renderer": self.name,
@@ -55,6 +58,22 @@ class Tracer:
             attributes["noise"] = f"{rounds.noise():.4g}"
         film = scene.film
         return SpectralImage(rounds.mean(), film.bands, film.band_kind, 1.0, attributes, error)
+
+    def layers(
+        self, native_file: Path, names: Sequence[str], options: RenderOptions, report: Report
+    ) -> Layers:
+        """Return some layers of a native scene's picture, out of layers.NAMES but the standard error."""
+        from .layers import render_layers
+
+        scene = native.read(native_file)
+        report(0.0)
+        return render_layers(scene, _painter(native_file, scene, options), names, options, report)
+
+
+def _painter(native_file: Path, scene: RenderScene, options: RenderOptions) -> passes.Painter:
+    if options.gpu:
+        raise RenderingError("the tracer has no use for a graphics card, render without gpu")
+    return passes.Alone(scene) if options.threads == 1 else Together(native_file, options.threads)
 
 
 def renderer() -> Tracer:

@@ -103,7 +103,7 @@ def follow(world: World, paths: Paths, draw: Draw, integrator: Integrator, carri
         _bring_met(world, paths, hits, carrier)
         if step == depth:
             break
-        meetings = _met_surfaces(world, paths, hits, draw, step, carrier)
+        meetings = met_surfaces(world, paths, hits, draw, step, carrier)
         # What is not needed any more makes room in the processor's cache.
         del paths, hits
         paths = _gone_on(world, meetings, draw, step, carrier)
@@ -142,11 +142,11 @@ def _gone_on(
     while meetings:
         model, paths, met = meetings.pop()
         _bring_sampled(world, paths, model, met, draw.pair(step, LIGHT, paths.number), carrier)
-        parts.append(_scattered(paths, model, met, draw.pair(step, ONWARD, paths.number), carrier))
+        parts.append(scattered(paths, model, met, draw.pair(step, ONWARD, paths.number), carrier))
     return Paths.joined(parts)
 
 
-def _met_surfaces(
+def met_surfaces(
     world: World, paths: Paths, hits: Hits, draw: Draw, step: int, carrier: Carrier
 ) -> list[tuple[Model, Paths, Meeting]]:
     """
@@ -194,7 +194,7 @@ def _bring_sampled(
     carrier.bring(paths, light, lambda coming: model.turned(met, rows, coming))
 
 
-def _scattered(paths: Paths, model: Model, met: Meeting, draw: Pair, carrier: Carrier) -> Paths:
+def scattered(paths: Paths, model: Model, met: Meeting, draw: Pair, carrier: Carrier) -> Paths:
     """Return paths that go on in random directions; those that would go through an opaque surface end."""
     directions, density, weight, band = model.scattered(met, *draw)
     side = dot(met.places.faces, directions)

@@ -68,22 +68,27 @@ def render(scene: RenderScene, painter: Painter, options: RenderOptions, report:
 
     Calls report() with the fraction done; it may raise Cancelled.
     """
-    part = scene.film.part
-    shape = part.height, part.width, len(scene.film.bands)
     wanted = scene.integrator.samples
     count, samples = rounds_of(wanted, options, memory=wanted)
     rounds, progress = Rounds(samples), Progress(count, options, report)
     while rounds.count < count and not progress.is_enough(rounds):
-        tell = progress.within(rounds.count)
-        tell(0.0)
-        tiles = list(_tiles(part.width * part.height, samples, rounds.count))
-        picture = np.empty((part.width * part.height, len(scene.film.bands)), np.float32)
-        for tile, radiance in zip(tiles, painter.paint(tiles, tell), strict=True):
-            picture[tile.first : tile.last] = radiance
-        rounds.add(picture.reshape(shape))
-    check(rounds.mean(), scene)
+        rounds.add(render_round(scene, painter, samples, rounds.count, progress.within(rounds.count)))
+    _check(rounds.mean(), scene)
     report(1.0)
     return rounds
+
+
+def render_round(
+    scene: RenderScene, painter: Painter, samples: int, number: int, tell: Callable[[float], None]
+) -> FloatArray:
+    """Return the (height, width, bands) mean radiance of one round; tell() hears what part of it is done."""
+    tell(0.0)
+    part = scene.film.part
+    tiles = list(_tiles(part.width * part.height, samples, number))
+    picture = np.empty((part.width * part.height, len(scene.film.bands)), np.float32)
+    for tile, radiance in zip(tiles, painter.paint(tiles, tell), strict=True):
+        picture[tile.first : tile.last] = radiance
+    return picture.reshape(part.height, part.width, -1)
 
 
 def _tiles(pixels: int, samples: int, number: int) -> Iterator[Tile]:
@@ -96,9 +101,9 @@ class Alone:
     """Paints in this process: a scene's worlds, one for each part of the bands that its paths may see."""
 
     def __init__(self, scene: RenderScene, make: Callable[[FloatArray], Kernel] = best_kernel) -> None:
-        self._scene = scene = around_zero(scene)
-        self._worlds = [World.of(one, make) for one in _in_parts(scene)]
-        self.kernel = self._worlds[0].surfaces.kernel.name
+        self.scene = scene = around_zero(scene)
+        self.worlds = [World.of(one, make) for one in _in_parts(scene)]
+        self.kernel = self.worlds[0].surfaces.kernel.name
 
     def paint(self, tiles: Sequence[Tile], report: Callable[[float], None]) -> Iterator[FloatArray]:
         """Yield the (pixels, bands) mean radiance of each tile."""
@@ -111,15 +116,15 @@ class Alone:
 
     def tile(self, tile: Tile, report: Callable[[float], None] = lambda done: None) -> FloatArray:
         """Return the (pixels, bands) mean radiance of a tile."""
-        scene, samples = self._scene, tile.samples
-        pixels = _numbers(scene, np.arange(tile.first, tile.last))
+        scene, samples = self.scene, tile.samples
+        pixels = numbers_of(scene, np.arange(tile.first, tile.last))
         uses, seed = pairs_needed(scene.integrator), scene.integrator.seed
         sampler = Sampler(pixels, samples, uses, seed, tile.number)
         pixel = np.repeat(np.arange(len(pixels)), samples)
         sample = np.tile(np.arange(samples), len(pixels))
-        part = (sample + sampler.turns.take(pixel)) % len(self._worlds)
+        part = (sample + sampler.turns.take(pixel)) % len(self.worlds)
         total, done = np.zeros((len(pixels), len(scene.film.bands)), np.float32), 0
-        for number, world in enumerate(self._worlds):
+        for number, world in enumerate(self.worlds):
             mine, carrier = np.nonzero(part == number)[0], world.carrier(len(pixels))
             with np.errstate(over="ignore"):  # what overflows is infinite, and refused by _check
                 for first in range(0, len(mine), WAVE):
@@ -131,10 +136,10 @@ class Alone:
         return total / np.float32(samples)
 
     def _wave(self, world: World, carrier: Carrier, draw: Draw, pixels: IntArray) -> None:
-        paths, weight = _from_camera(self._scene, draw, pixels)
+        paths, weight = _from_camera(self.scene, draw, pixels)
         band = np.full(len(paths.number), -1) if world.materials.parts else None
         paths = paths._replace(carried=carrier.begin(draw.pixel, weight), band=band)
-        follow(world, paths, draw, self._scene.integrator, carrier)
+        follow(world, paths, draw, self.scene.integrator, carrier)
 
 
 def _in_parts(scene: RenderScene) -> list[RenderScene]:
@@ -145,7 +150,7 @@ def _in_parts(scene: RenderScene) -> list[RenderScene]:
     return [replace(scene, film=film) for film in films]
 
 
-def _numbers(scene: RenderScene, places: IntArray) -> IntArray:
+def numbers_of(scene: RenderScene, places: IntArray) -> IntArray:
     """Return the numbers in the whole picture of pixels of the part that is rendered."""
     part = scene.film.part
     row, column = np.divmod(places, part.width)
@@ -165,7 +170,7 @@ def _from_camera(scene: RenderScene, draw: Draw, pixels: IntArray) -> tuple[Path
     return Paths(number, origins, directions.astype(np.float32), reach, density, number), weight
 
 
-def check(radiance: FloatArray, scene: RenderScene) -> None:
+def _check(radiance: FloatArray, scene: RenderScene) -> None:
     """Raise RenderingError for radiance that cannot be; a filter with negative lobes may make some of it."""
     lowest = -np.inf if FILTERS[scene.film.filter][2] else 0
     wrong = np.argwhere(~(radiance >= lowest) | ~np.isfinite(radiance))

@@ -8,6 +8,8 @@ other pixels are rendered, and by whom.
 
 from __future__ import annotations
 
+from functools import lru_cache
+
 import numpy as np
 from numpy.typing import NDArray
 
@@ -48,21 +50,27 @@ class Sampler:
     """
 
     def __init__(self, pixels: IntArray, samples: int, pairs: int, seed: int, number: int) -> None:
-        random = np.random.Generator(np.random.Philox(np.random.SeedSequence([seed % 2**64, number])))
-        points = sequence(samples)
-        # Below the digits of the sequence each sample has digits of its own, or a pixel's samples would share
-        # them, and with them whatever the last digits decide.
-        last = 1 << 32 - max(samples - 1, 1).bit_length()
-        below = random.integers(0, last, (pairs, *points.shape), np.uint32)
-        self._points = [points[:, random.permutation(samples)] ^ below[pair] for pair in range(pairs)]
-        keys = random.integers(0, 1 << 64, (pairs, 2, 1), np.uint64)
-        self._scramble = _bits(pixels, keys)
-        self.turns = _bits(pixels, random.integers(0, 1 << 64, dtype=np.uint64)).astype(int)
+        uses = [_use(samples, seed % 2**64, number, use) for use in range(pairs)]
+        self._points = [points for points, _ in uses]
+        self._scramble = _bits(pixels, np.stack([keys for _, keys in uses]))
+        self.turns = _bits(pixels, np.uint64(seed % 2**64 ^ number)).astype(int)
 
     def pair(self, use: int, pixel: NDArray, sample: NDArray) -> tuple[FloatArray, FloatArray]:
         """Return two (n,) arrays in [0, 1): the numbers for some use of some samples of some pixels."""
         u, v = self._points[use].take(sample, axis=1) ^ self._scramble[use].take(pixel, axis=1)
         return u * 2.0**-32, v * 2.0**-32
+
+
+@lru_cache(maxsize=256)
+def _use(samples: int, seed: int, number: int, use: int) -> tuple[NDArray[np.uint32], NDArray[np.uint64]]:
+    """Return the (2, samples) points of one use in a round, as fractions of 2**32, and (2, 1) keys."""
+    random = np.random.Generator(np.random.Philox(np.random.SeedSequence([seed, number, use])))
+    points = sequence(samples)[:, random.permutation(samples)]
+    # Below the digits of the sequence each sample has digits of its own, or a pixel's samples would share
+    # them, and with them whatever the last digits decide.
+    last = 1 << 32 - max(samples - 1, 1).bit_length()
+    below = random.integers(0, last, points.shape, np.uint32)
+    return points ^ below, random.integers(0, 1 << 64, (2, 1), np.uint64)
 
 
 def _bits(numbers: IntArray, key: NDArray[np.uint64] | np.uint64) -> NDArray[np.uint32]:
