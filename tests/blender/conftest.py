@@ -114,3 +114,13 @@ def resolved(library, read, tmp_path):
         return library("scene.resolve").resolve(document, adjustments, settings, find_file).scene
 
     return resolve
+
+
+@pytest.fixture
+def still(scene, box, lamp):
+    """A scene that can be read: a tagged box and a tagged lamp."""
+    box()
+    lamp().data.rtb.use_spectra = True
+    bpy.data.materials["Paint"].rtb.use_spectra = True
+    bpy.data.materials["Paint"].rtb.reflectance = "0.5"
+    return scene

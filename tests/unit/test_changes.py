@@ -1,9 +1,6 @@
 """RenderToolbox4's mappings in JSON: read, written, and what they say for one condition."""
 
-import json
-import os
 import re
-from pathlib import Path
 
 import numpy as np
 import pytest
@@ -14,67 +11,9 @@ from rtb_addon.conditions import Condition
 from rtb_addon.errors import RecipeError
 from rtb_addon.mappings import format_changes, format_mappings, parse_mappings, read_mappings
 from rtb_addon.mappings.changes import OPERATIONS, Change, ChangedProperty, parse_changes
-from rtb_addon.scene.build import Placement, SceneBuilder
-from rtb_addon.scene.document import Scene
 from rtb_addon.scene.render_scene import Film
 from rtb_addon.scene.resolve import SceneSettings, resolve
-
-SHARED = Path(__file__).resolve().parents[3] / "shared"
-RTB4 = Path(os.environ.get("RTB4_FOLDER", SHARED / "rtb4"))
-RTB3 = Path(os.environ.get("RTB3_FOLDER", SHARED / "rtb3"))
-
-# Changes and properties of the files that RenderToolbox4 shipped, counted with plain JSON.
-OLD_FILES = {
-    "ExampleScenes/BlenderPython/CheckerShadowSceneMappings.json": (11, 30),
-    "ExampleScenes/Dice/DiceMappings.json": (5, 6),
-    "ExampleScenes/Dice/DiceTransformationsMappings.json": (8, 9),
-    "ExampleScenes/Dragon/DragonColorCheckerMappings.json": (6, 6),
-    "ExampleScenes/Dragon/DragonGradedMappings.json": (6, 6),
-    "ExampleScenes/Dragon/DragonMappings.json": (6, 6),
-    "ExampleScenes/Dragon/DragonMaterialsMappings.json": (12, 17),
-    "ExampleScenes/Interior/InteriorMappings.json": (39, 41),
-    "ExampleScenes/MaterialSphere/MaterialSphereBumpsMappings.json": (6, 11),
-    "ExampleScenes/MaterialSphere/MaterialSphereMappings.json": (4, 8),
-    "ExampleScenes/RadianceTest/RadianceTestMappings.json": (10, 10),
-    "ExampleScenes/ScalingTest/ScalingTestMappings.json": (8, 16),
-    "ExampleScenes/SceneFromScratch/rtbScratchMappings.json": (5, 5),
-    "ExampleScenes/SimpleSphere/SimpleSphereMappings.json": (7, 11),
-    "ExampleScenes/SimpleSquare/SimpleSquareMappings.json": (2, 2),
-    "ExampleScenes/SpectralIllusion/SpectralIllusionMappings.json": (33, 32),
-    "Test/Automated/Fixture/DragonColorCheckerMappings.json": (6, 6),
-}
-
-
-def room():
-    builder = SceneBuilder()
-    builder.plane("Wall", 2, 2, "Paint")
-    builder.plane("Panel", 1, 1, "Black", Placement((0, 0, 9), (180, 0, 0)))
-    builder.camera(placement=Placement((0, 0, 5)))
-    builder.point("Lamp", placement=Placement((0, 0, 3)))
-    builder.spot("Beam", cone=60.0, placement=Placement((1, 0, 3)))
-    return Scene.parse(builder.tobytes(), "parent.dae")
-
-
-def nothing(name):
-    return None
-
-
-def filled(*changes, renderer="mitsuba", find_file=nothing, scene=None, **cells):
-    mappings = parse_mappings(json.dumps(changes, indent=1), "mappings.json")
-    return mappings.fill_in(Condition("first", cells), renderer, scene or room(), find_file)
-
-
-def said(adjustments):
-    return [
-        (each.id, each.category, each.model, {p.name: p.value for p in each.properties})
-        for each in adjustments.objects
-    ]
-
-
-def update(name, kind, model="", destination="Generic", **properties):
-    words = {"name": name, "broadType": kind, "operation": "update", "destination": destination}
-    listed = [{"name": key, "value": value} for key, value in properties.items()]
-    return {**words, "specificType": model, "properties": listed}
+from tests.unit.filled_changes import OLD_FILES, RTB4, filled, moved, nothing, room, said, update
 
 
 def test_the_example_of_the_format():
@@ -110,12 +49,6 @@ def matrix_of(*changes, node="Lamp", **cells):
     scene = room()
     changed = scene.adjusted(filled(*changes, scene=scene, **cells))
     return np.array((changed.value_at(f"{node}:matrix|sid=transform") or "").split(), float).reshape(4, 4)
-
-
-def moved(name, operation):
-    properties = {"name": "transformation", "operation": operation}
-    words = {"name": name, "broadType": "nodes", "operation": "update", "destination": "mexximp"}
-    return {**words, "properties": properties}
 
 
 def test_a_node_moves_by_an_expression_of_where_it_stands():
@@ -339,10 +272,13 @@ JSON = st.recursive(
     lambda inner: st.lists(inner, max_size=3),
     max_leaves=5,
 )
+
 PROPERTY = st.builds(
     ChangedProperty, st.text(min_size=1, max_size=5), st.text(max_size=5), JSON, st.text(max_size=9)
 )
+
 TEXT = st.text(max_size=6)
+
 CHANGE = st.builds(
     Change,
     TEXT,
@@ -384,53 +320,3 @@ def test_every_file_that_rendertoolbox4_shipped_reads_as_counted_and_fills_in(re
         words = set(re.findall(r"\((\w+)\)", mappings.text))
         row = Condition("first", {word: "1" for word in words if not word.isdigit()})
         assert isinstance(mappings.fill_in(row, renderer, room(), nothing).objects, tuple)
-
-
-def test_the_radiance_test_of_both_toolboxes_is_the_same_scene():
-    scene_file = RTB3 / "ExampleScenes" / "RadianceTest" / "RadianceTest.dae"
-    mappings_file = RTB4 / "ExampleScenes" / "RadianceTest" / "RadianceTestMappings.json"
-    if not (scene_file.is_file() and mappings_file.is_file()):
-        pytest.skip(
-            f"THE OLD FILES ARE NOT HERE: {scene_file}, {mappings_file}; set RTB3_FOLDER, RTB4_FOLDER"
-        )
-    cells = {
-        "lightDistance": "100",
-        "cameraY": "5",
-        "cameraZ": "5",
-        "cameraXRot": "-45",
-        "lightRadius": "0.01",
-    }
-    cells |= {"reflectorXRot": "-41.4", "groupName": "areaLightGroup", "lightSpectrum": "300:1 800:1"}
-    document = Scene.read(scene_file)
-    adjustments = read_mappings(mappings_file).fill_in(Condition("x", cells), "tracer", document, nothing)
-    found = resolve(document, adjustments, SceneSettings(Film(100, 100)), nothing)
-    assert adjustments.remarks == ()
-    check_radiance_test(found.scene)
-
-
-def check_radiance_test(scene):
-    square, disc = sorted(scene.shapes, key=lambda shape: shape.emission is not None)
-    assert scene.lights == ()
-    np.testing.assert_allclose(disc.to_world[:3, 3], [0, 0, 110.1], atol=1e-3)
-    np.testing.assert_allclose(np.linalg.norm(disc.to_world[:3, 0]), 0.01, rtol=1e-6)
-    np.testing.assert_allclose(scene.camera.to_world[:3, 3], [0, 5, 5], atol=1e-9)
-    np.testing.assert_allclose(-scene.camera.to_world[:3, 2], [0, -np.sqrt(0.5), -np.sqrt(0.5)], atol=1e-6)
-    tilt = np.radians(-41.4)
-    np.testing.assert_allclose(square.to_world[:3, 2], [0, -np.sin(tilt), np.cos(tilt)], atol=1e-6)
-
-
-def test_a_radiance_test_of_ours_in_json_stands_where_it_says():
-    builder = SceneBuilder()
-    builder.plane("Reflector", material="White")
-    builder.plane("AreaLight", material="Black", placement=Placement((0, 0, 10), (180, 0, 0)))
-    builder.camera()
-    document = Scene.parse(builder.tobytes(), "parent.dae")
-    changes = [
-        moved("Camera", "mexximpRotate([1 0 0], deg2rad((turn))) * mexximpTranslate([0 (y) (z)])"),
-        moved("AreaLight", "mexximpScale([(r) (r) 1]) * mexximpTranslate([0 0 -(far) - 0.1]) * oldValue"),
-        moved("Reflector", "mexximpRotate([1 0 0], deg2rad((tilt))) * oldValue"),
-        {"name": "AreaLight", "broadType": "meshes", "operation": "blessAsAreaLight"},
-    ]
-    cells = {"turn": "-45", "y": "5", "z": "5", "r": "0.01", "far": "100", "tilt": "-41.4"}
-    adjustments = filled(*changes, scene=document, **cells)
-    check_radiance_test(resolve(document, adjustments, SceneSettings(Film(8, 8)), nothing).scene)
