@@ -10,8 +10,9 @@ import pytest
 from rtb_addon.renderers.interface import RenderOptions
 from rtb_addon.renderers.mitsuba import renderer, session
 from rtb_addon.scene.render_scene import Material
-from rtb_addon.spectra import Bands
+from rtb_addon.spectra import Bands, Spectrum
 from rtb_addon.spectra.files import read_spd
+from rtb_addon.spectra.library import find
 from tests.renderings.materials_scene import BLUE, GREEN, MATERIALS, MORE, PALE, RED, row
 from tests.renderings.mitsuba_scenes import (
     BANDS,
@@ -79,6 +80,21 @@ def test_pictures_are_the_same_to_both(by_both, kind, request):
     path = request.getfixturevalue(kind)
     first, second = by_both(sheet(bitmap(path, filterMode="bilinear"), size=(8, 6)))
     np.testing.assert_allclose(first, second, rtol=2e-5, atol=1e-6)
+
+
+@pytest.mark.parametrize("kind", ["averaged", "centre"])
+def test_nothing_leaks_from_band_to_band(by_both, kind):
+    # A comb that reflects all of every other band and nothing of the others, under daylight.
+    bands = Bands.regular(400, 10, 31)
+    edges = bands.edges[1:-1]
+    places = np.ravel([edges - 1e-4, edges + 1e-4], order="F")
+    comb = Spectrum.of(places, np.resize([1.0, 0.0, 0.0, 1.0], len(places)))
+    sun = lamp("directional", intensity=find("D65"), angle=0.0)
+    daylight = sun.parameters["intensity"].in_bands(bands, kind) / np.pi
+    one = scene([sun], reflectance=comb, bands=bands, kind=kind, samples=16)
+    for radiance in by_both(one):
+        assert radiance[..., 1::2].max() < 1e-4 * daylight.min()
+        np.testing.assert_allclose(radiance[0, 0, ::2], daylight[::2], rtol=1e-4)
 
 
 def blend_of(materials, weights):

@@ -53,8 +53,14 @@ def test_no_material_gives_more_light_than_it_gets(tmp_path):
     image = picture(one, tmp_path).radiance
     for name in EVERY:
         blocks = in_blocks(of(image, name, tuple(EVERY)), 8)
-        # What facets or the smooth normals of a coarse ball send downwards is lost.
-        assert 0.8 < blocks.min() <= blocks.max() < 1.005, name
+        # What facets or the smooth normals of a coarse ball send downwards is lost, more by GGX's long tails.
+        least = 0.75 if "ggx" in name else 0.8
+        assert least < blocks.min() <= blocks.max() < 1.005, name
+
+
+def test_paint_that_reflects_more_than_it_gets_is_rendered_as_it_is(tmp_path):
+    image = picture(of_paint("matte", diffuseReflectance=REFLECTANCE.scaled(2.5)), tmp_path)
+    assert_within_noise(image, 2.5 * PAINTED * SHINING)
 
 
 def other(value):

@@ -84,8 +84,8 @@ def _directions() -> FloatArray:
     height = np.pi * (0.5 - (np.arange(_HEIGHT) + 0.5) / _HEIGHT)
     turn, height = np.meshgrid(turn, height)
     level = np.cos(height)
-    ways: FloatArray = np.stack([level * np.cos(turn), level * np.sin(turn), np.sin(height)])
-    return ways.reshape(3, -1)
+    ways = [level * np.cos(turn), level * np.sin(turn), np.sin(height)]
+    return np.array(ways, float).reshape(3, -1)
 
 
 def _written(radiance: FloatArray, folder: Path) -> Path:
