@@ -23,6 +23,7 @@ from .fill_pairs import RTB_OT_fill_pairs
 from .fill_random import RTB_OT_fill_random
 from .fill_range import RTB_OT_fill_range
 from .import_conditions import RTB_OT_import_conditions
+from .import_spectra import RTB_FH_spectra, RTB_OT_import_spectra
 from .move_condition import RTB_OT_move_condition
 from .move_variable import RTB_OT_move_variable
 from .open_folder import RTB_OT_open_folder
@@ -72,6 +73,8 @@ CLASSES = (
     RTB_OT_use_colour,
     RTB_OT_use_metal,
     RTB_PG_sample,
+    RTB_OT_import_spectra,
+    RTB_FH_spectra,
     RTB_OT_use_table,
     RTB_OT_use_variable,
     RTB_OT_vary_in_recipe,

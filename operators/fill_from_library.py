@@ -4,12 +4,18 @@ from __future__ import annotations
 
 import bpy
 
+from ..rtb_addon.blender.own_spectra import own_folders
 from ..rtb_addon.errors import RecipeError
 from .design_verbs import DesignVerb
 
 MOST = 32  # what a set of flags can hold
 
 _items: dict[str, list] = {}  # Blender reads items where we keep them
+
+
+def forget() -> None:
+    """Look for the library's names anew when they are next asked for."""
+    _items.clear()
 
 
 def _groups(operator, context):
@@ -31,7 +37,7 @@ def _names_by_group() -> dict[str, list[str]]:
     from ..rtb_addon.spectra.library import names  # brings numpy, which enabling need not wait for
 
     groups: dict[str, list[str]] = {}
-    for name in sorted(names(), key=lambda each: "/" not in each):
+    for name in sorted(names(own_folders()), key=lambda each: "/" not in each):
         groups.setdefault(_group(name), []).append(name)
     return {group: found[:MOST] for group, found in groups.items()}
 
@@ -73,5 +79,5 @@ class RTB_OT_fill_from_library(DesignVerb, bpy.types.Operator):
         if not names:
             raise RecipeError("no spectrum is marked, click those that are wanted")
         for name in names:
-            find(name)
+            find(name, own_folders())
         return self.put(context, names, [each.rpartition("/")[2] for each in names], "SPECTRUM")

@@ -2,7 +2,7 @@
 
 import bpy
 
-from ..rtb_addon.blender.folders import blend_folder
+from ..rtb_addon.blender.own_spectra import heard
 from .design_verbs import DesignVerb
 
 
@@ -18,9 +18,8 @@ class RTB_OT_fill_graded(DesignVerb, bpy.types.Operator):
     fields = ("variable", "how", "first", "last", "count")
 
     def edit(self, context):
-        # These bring numpy, which enabling need not wait for.
+        # This brings numpy, which enabling need not wait for.
         from ..rtb_addon.designs import graded
-        from ..rtb_addon.spectra.spoken import spectrum_from
 
-        first, last = (spectrum_from(text, folder=blend_folder()) for text in (self.first, self.last))
+        first, last = heard(self.first), heard(self.last)
         return self.put(context, graded(first, last, self.count), kind="SPECTRUM")

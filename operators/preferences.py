@@ -5,7 +5,7 @@ from __future__ import annotations
 import bpy
 
 from ..rtb_addon.blender.properties import RENDERERS
-from . import renderers_found
+from . import renderers_found, use_library_spectrum
 from .test_renderers import RTB_OT_test_renderers
 
 EXTENSION = (__package__ or "").rpartition(".")[0]  # the name under which Blender has enabled us
@@ -23,6 +23,12 @@ class RTB_AP_preferences(bpy.types.AddonPreferences):
         subtype="DIR_PATH",
     )
     renderer: bpy.props.EnumProperty(name="Renderer", description="Of new files", items=RENDERERS)
+    spectra: bpy.props.StringProperty(
+        name="Spectra",
+        description="Folder of your own spectra, where imported ones go; empty: in Blender's user folder",
+        subtype="DIR_PATH",
+        update=lambda self, context: use_library_spectrum.forget(),
+    )
     workers: bpy.props.IntProperty(
         name="Workers", description="Conditions rendered at once; 0: one for each core", min=0, soft_max=64
     )
@@ -31,7 +37,7 @@ class RTB_AP_preferences(bpy.types.AddonPreferences):
         layout = self.layout
         layout.use_property_split = True
         layout.use_property_decorate = False
-        for name in ("folder", "renderer", "workers"):
+        for name in ("folder", "renderer", "workers", "spectra"):
             layout.prop(self, name)
         header, body = layout.panel("RTB_renderers", default_closed=False)
         header.label(text="Renderers")

@@ -1,20 +1,54 @@
-"""A spectrum of the library, found by its name."""
+"""A spectrum of the library, found by its name, with its curve beside it."""
 
 from __future__ import annotations
 
 import bpy
 
+from ..rtb_addon.blender import curve_previews
+from ..rtb_addon.blender.fields import FIELDS
+from ..rtb_addon.blender.own_spectra import own_folders
 from .spectrum_verbs import SpectrumVerb
 
-_items: list[tuple[str, str, str, int]] = []  # Blender reads them where we keep them
+# What is offered to whom: kind -> Blender's items, which it reads where we keep them.
+_items: dict[str, list[tuple[str, str, str, int, int]]] = {}
+
+
+def forget() -> None:
+    """Look for the library's names anew when they are next asked for."""
+    _items.clear()
+    curve_previews.forget_icons()
 
 
 def _names(operator, context):
-    if not _items:
+    kind = _kind(operator.field)
+    if kind not in _items:
         from ..rtb_addon.spectra.library import names  # brings numpy, which enabling need not wait for
 
-        _items.extend((name, name.replace("/", " › "), "", number) for number, name in enumerate(names()))
-    return _items
+        fitting = [name for name in names(own_folders()) if _fits(name, kind)]
+        if kind == "surface":  # illuminants after what reflects
+            fitting.sort(key=lambda name: "/" not in name)
+        icons = curve_previews.icons(fitting, kind == "light")
+        _items[kind] = [
+            (name, name.replace("/", " › "), "", icon, number)
+            for number, (name, icon) in enumerate(zip(fitting, icons, strict=True))
+        ]
+    return _items[kind]
+
+
+def _kind(field: str) -> str:
+    """Return what kind of spectra a field takes."""
+    said = FIELDS[field]
+    if said.index:
+        return said.name if said.name in ("eta", "k") else "index"
+    return "any" if field == "CELL" else "light" if said.shines else "surface"
+
+
+def _fits(name: str, kind: str) -> bool:
+    if name.startswith("Metals/"):
+        return kind == "any" or name.endswith(f" {kind}")
+    if name.startswith("Glasses/"):
+        return kind in ("any", "index")
+    return name.startswith("Own/") or kind in ("any", "light", "surface")
 
 
 class RTB_OT_use_library_spectrum(SpectrumVerb, bpy.types.Operator):

@@ -5,7 +5,7 @@ from __future__ import annotations
 import bpy
 
 from ..rtb_addon.blender.fields import FIELDS, owner_of, typed_in
-from ..rtb_addon.blender.folders import blend_folder
+from ..rtb_addon.blender.own_spectra import heard
 from ..rtb_addon.errors import RecipeError
 from .spectrum_verbs import SpectrumVerb
 
@@ -59,11 +59,9 @@ class RTB_OT_use_table(SpectrumVerb, bpy.types.Operator):
         """Return what the field says now, in no more rows than fit."""
         # numpy takes longer to come than all else that enabling the extension waits for.
         from ..rtb_addon.spectra import Spectrum
-        from ..rtb_addon.spectra.spoken import spectrum_from
 
         group = owner_of(context, self.field)
-        text = typed_in(group, FIELDS[self.field].name, context.scene.rtb)
-        spectrum = spectrum_from(text, folder=blend_folder())
+        spectrum = heard(typed_in(group, FIELDS[self.field].name, context.scene.rtb))
         if len(spectrum.wavelengths) <= MOST:
             return spectrum
         places = [*range(380, 781, 20)]

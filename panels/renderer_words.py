@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 
+from ..rtb_addon.blender.fields import is_number
 from ..rtb_addon.blender.material_words import CHOICES, MODELS, is_typed, takes_texture, texture_of, words_of
 from ..rtb_addon.blender.properties import RENDERERS
 from ..rtb_addon.scene.vocabulary import MATERIALS
@@ -42,7 +43,7 @@ def features(settings) -> Iterator[tuple[str, str]]:
         value = getattr(settings, words_of(name).name)
         if name == "distribution" and value != "beckmann":
             yield f"distribution {value}", f"{CHOICES[value]} slopes"
-        elif parameter.kind == "index" and is_typed(parameter.kind) and not _is_number(value):
+        elif parameter.kind == "index" and is_typed(parameter.kind) and not is_number(value):
             yield "index spectrum", "An index that varies with wavelength"
         elif takes_texture(name, parameter.kind):
             kind = getattr(settings, texture_of(words_of(name).name)).kind
@@ -58,11 +59,3 @@ def _fidelity(renderer: str, feature: str):
     from ..rtb_addon.renderers.fidelity import fidelity  # brings numpy, which enabling need not wait for
 
     return fidelity(renderer, feature)
-
-
-def _is_number(text: str) -> bool:
-    try:
-        float(text)
-    except ValueError:
-        return False
-    return True

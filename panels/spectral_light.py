@@ -33,5 +33,6 @@ def draw_told(layout, context, found) -> None:
     draw_sentences(layout, [found.sentence] if found.sentence else [], context.region.width, alert=True)
     column = layout.column(align=True)
     column.active = False
-    for line in found.lines:
+    # As many lines as there will be: a panel that grows by itself lies over the next one for a while.
+    for line in found.lines or [""] * light_words.LINES * (not found.sentence):
         column.label(text=line)

@@ -23,15 +23,13 @@ class RTB_PT_spectral_material(SpectralPanel, bpy.types.Panel):
     def draw_spectra(self, layout, context, settings):
         layout.prop(settings, "model")
         if settings.model == "metal":
-            row = layout.split(factor=0.4)
-            row.label()
-            row.operator(RTB_OT_use_metal.bl_idname, text="Choose Metal…", icon="VIEWZOOM")
-        for name, parameter in MATERIALS[settings.model].items():
+            layout.operator(RTB_OT_use_metal.bl_idname, text="Choose Metal…", icon="VIEWZOOM")
+        for number, (name, parameter) in enumerate(MATERIALS[settings.model].items()):
             own = words_of(name).name
             if takes_texture(name, parameter.kind) and getattr(settings, texture_of(own)).kind != "NONE":
                 layout.label(text=f"{words_of(name).label} from a texture")
             elif is_typed(parameter.kind):
-                draw_spectrum(layout, context, settings, own.upper())
+                draw_spectrum(layout, context, settings, own.upper(), flat=number == 0)
             else:
                 layout.prop(settings, own)
         draw_detail(layout, context, settings)
@@ -67,7 +65,7 @@ def draw_texture(layout, context, texture, label: str, own: str) -> None:
         layout.prop(texture, "scale")
     elif texture.kind == "checkerboard":
         for part in ("even", "odd"):
-            draw_spectrum(layout, context, texture, f"{own}_{part}".upper())
+            draw_spectrum(layout, context, texture, f"{own}_{part}".upper(), flat=False)
         layout.prop(texture, "checks")
         layout.prop(texture, "offset")
 

@@ -7,10 +7,7 @@ from .spectra import SpectralPanel
 from .spectral_material import draw_image
 from .spectrum_field import draw_spectrum
 
-PICTURES = (
-    "an RGB image becomes spectra by three smooth basis colours, an EXR file of bands is taken as it is; "
-    "both are multiplied by the spectrum"
-)
+PICTURES = "RGB becomes spectra of three smooth basis colours; bands of an EXR stay as they are"
 
 
 class RTB_PT_spectral_world(SpectralPanel, bpy.types.Panel):

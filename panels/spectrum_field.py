@@ -1,7 +1,7 @@
 """A spectrum, drawn alike wherever there is one: its text, the menu beside it, and its curve below."""
 
 from ..rtb_addon.blender import curve_previews
-from ..rtb_addon.blender.fields import FIELDS, typed_in
+from ..rtb_addon.blender.fields import FIELDS, is_number, typed_in
 from .sentences import draw_sentences
 from .spectrum_menus import draw_menu
 
@@ -11,20 +11,29 @@ BORDER = 4  # that Blender leaves around a picture [pixels at scale 1]
 SMALLEST, LARGEST = 6, 10  # curves [units]
 
 
-def draw_spectrum(layout, context, group, field: str, text: str | None = None) -> None:
-    """Draw a field with its curve; the active condition says what its variables are."""
+def draw_spectrum(layout, context, group, field: str, text: str | None = None, flat: bool = True) -> None:
+    """
+    Draw a field with its curve; the active condition says what its variables are.
+
+    Parameters
+    ----------
+    flat : whether a spectrum that is one number has a curve as well
+    """
     name = FIELDS[field].name
     row = layout.row(align=True)
     row.prop(group, name, **({} if text is None else {"text": text}))
     draw_menu(row, field)
-    draw_curve(layout, context, typed_in(group, name, context.scene.rtb), FIELDS[field].shines)
+    said = typed_in(group, name, context.scene.rtb)
+    if flat or not is_number(said):
+        draw_curve(layout, context, said, FIELDS[field].shines, swatch=not FIELDS[field].index)
 
 
-def draw_curve(layout, context, text: str, shines: bool) -> None:
-    """Draw the curve of a spectrum, or why there is none."""
+def draw_curve(layout, context, text: str, shines: bool, swatch: bool = True) -> None:
+    """Draw the curve of a spectrum, or why there is none; an index has no colour, and so no swatch."""
     scale = context.preferences.system.ui_scale or 1.0  # 0 where there is no window
     units = min(max(int((context.region.width / scale - BESIDE) / UNIT), SMALLEST), LARGEST)
-    found = curve_previews.shown(text, shines, round((units * UNIT - BORDER) * scale))
+    under = context.scene.rtb.seen_under if swatch else ""
+    found = curve_previews.shown(text, shines, round((units * UNIT - BORDER) * scale), under)
     draw_sentences(layout, [found.sentence] if found.sentence else [], context.region.width, alert=True)
     if not found.sentence:
         layout.template_icon(icon_value=found.icon, scale=units)

@@ -2,6 +2,7 @@
 
 import bpy
 
+from ..operators.import_spectra import RTB_OT_import_spectra
 from ..operators.use_blackbody import RTB_OT_use_blackbody
 from ..operators.use_colour import RTB_OT_use_colour
 from ..operators.use_daylight import RTB_OT_use_daylight
@@ -41,9 +42,12 @@ class RTB_MT_spectrum(bpy.types.Menu):
         layout.operator_context = "INVOKE_DEFAULT"
         layout.operator(RTB_OT_use_library_spectrum.bl_idname, text="Library…", icon="VIEWZOOM").field = field
         layout.operator(RTB_OT_use_spectrum_file.bl_idname, text="File…", icon="FILEBROWSER").field = field
+        layout.operator(RTB_OT_import_spectra.bl_idname, text="Import to Library…", icon="IMPORT")
         layout.separator()
         for verb in INDICES if FIELDS[field].index else ANY:
             layout.operator(verb.bl_idname, text=f"{verb.bl_label}…").field = field
+        layout.separator()
+        layout.prop_menu_enum(context.scene.rtb, "seen_under")
         if field != "CELL":
             layout.separator()
             self.draw_variables(layout, context.scene.rtb, field)

@@ -46,7 +46,7 @@ class Plot:
 
 
 def curve_picture(
-    spectrum: Spectrum, size: int, colour: ArrayLike, ink: ArrayLike, magnified: int = 1
+    spectrum: Spectrum, size: int, colour: ArrayLike | None, ink: ArrayLike, magnified: int = 1
 ) -> np.ndarray:
     """
     Return a spectrum's curve from 380 to 780 nm, clear where nothing is drawn.
@@ -54,7 +54,7 @@ def curve_picture(
     Parameters
     ----------
     size : of the square picture's side [pixels]
-    colour : of the swatch, 8-bit sRGB, (3,)
+    colour : of the swatch, 8-bit sRGB, (3,); None for no swatch
     ink : of lines and letters, 8-bit sRGB, (3,)
     magnified : how many pixels a pixel of a letter takes
 
@@ -66,13 +66,40 @@ def curve_picture(
     picture[..., :3] = np.asarray(ink, np.float32) / 255
     seen = (spectrum.wavelengths > RANGE[0]) & (spectrum.wavelengths < RANGE[1])
     highest = nice_above(float(np.concatenate([spectrum.at(RANGE), spectrum.values[seen]]).max()))
-    plot = _plot(size, highest, magnified)
+    swatch = 0 if colour is None else max(round(size * _SWATCH), 1)
+    plot = _plot(size, highest, magnified, swatch)
     _draw_axes(picture, plot, magnified)
     _draw_curve(picture, plot, spectrum)
-    swatch = max(round(size * _SWATCH), 1)
-    picture[:swatch, plot.left : plot.right, :3] = np.asarray(colour, np.float32) / 255
-    picture[:swatch, plot.left : plot.right, 3] = 1
+    if colour is not None:
+        picture[:swatch, plot.left : plot.right, :3] = np.asarray(colour, np.float32) / 255
+        picture[:swatch, plot.left : plot.right, 3] = 1
     return picture
+
+
+def curve_icon(spectrum: Spectrum, size: int, colour: ArrayLike) -> np.ndarray:
+    """
+    Return a spectrum as a small tile of its colour, the curve across it in black or white.
+
+    Parameters
+    ----------
+    size : of the square tile's side [pixels]
+    colour : 8-bit sRGB, (3,)
+
+    Returns
+    -------
+    (size, size, 4) float32 array : sRGB and alpha, 0 to 1, from the lowest row up
+    """
+    tile = np.ones((size, size, 4), np.float32)
+    tile[..., :3] = np.asarray(colour, np.float32) / 255
+    values = spectrum.at(np.linspace(*RANGE, size))
+    heights = 2 + (size - 5) * values / max(float(values.max()), np.finfo(float).tiny)
+    rows = np.arange(size)[:, None]
+    low, high = np.minimum(heights, np.roll(heights, 1)), np.maximum(heights, np.roll(heights, 1))
+    low[0] = high[0] = heights[0]
+    line = np.clip(1.2 - np.maximum(np.maximum(low - rows, rows - high), 0), 0, 1)[..., None]
+    ink = 0.0 if tile[0, 0, :3] @ (0.3, 0.6, 0.1) > 0.5 else 1.0
+    tile[..., :3] += line * (ink - tile[..., :3])
+    return tile
 
 
 def nice_above(value: float) -> float:
@@ -83,11 +110,11 @@ def nice_above(value: float) -> float:
     return float(next(nice * power for nice in _NICE if value <= nice * power * (1 + 1e-9)))
 
 
-def _plot(size: int, highest: float, magnified: int) -> Plot:
+def _plot(size: int, highest: float, magnified: int, swatch: int) -> Plot:
     """Leave room for the swatch and the wavelengths below, and for the values at the left."""
     widest = max(len(text) for text in (f"{highest:g}", "0"))
     left = (widest * WIDTH + 2) * magnified
-    bottom = round(size * _SWATCH) + 15 * magnified
+    bottom = swatch + 15 * magnified
     return Plot(left, size, bottom, size - 4 * magnified, highest)
 
 

@@ -14,11 +14,11 @@ from ..errors import RecipeError
 from . import lights
 
 MEASURES = (
-    ("WATTS", "Blender's Power (W)", "As much as Blender's own power and exposure say", 0),
-    ("LUMENS", "Luminous Flux (lm)", "All light that leaves the lamp, as the eye weighs it", 1),
-    ("CANDELAS", "Luminous Intensity (cd)", "Light in the lamp's main direction, as from a point", 2),
-    ("NITS", "Luminance (cd/m²)", "How bright the lamp's surface looks", 3),
-    ("LUX", "Illuminance (lx)", "Light that falls on a surface that faces the lamp", 4),
+    ("WATTS", "Watts", "As much as Blender's own power and exposure say", 0),
+    ("LUMENS", "Lumens", "All light that leaves the lamp, as the eye weighs it", 1),
+    ("CANDELAS", "Candelas", "Light in the lamp's main direction, as from a point", 2),
+    ("NITS", "cd/m²", "How bright the lamp's surface looks", 3),
+    ("LUX", "Lux", "Light that falls on a surface that faces the lamp", 4),
 )
 _UNITS = {"LUMENS": "lumens", "CANDELAS": "candelas", "NITS": "cd/m²", "LUX": "lux"}
 

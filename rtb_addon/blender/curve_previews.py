@@ -7,16 +7,18 @@ What is not there yet is made when Blender is idle, a few milliseconds each, and
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from typing import NamedTuple
 
 import bpy
 import bpy.utils.previews
 
 from ..errors import RecipeError
-from .folders import blend_folder
+from .own_spectra import heard, own_folders
 from .redrawing import redraw_panels
 
 MOST = 128  # pictures that are kept
+ICON = 32  # side of an icon [pixels]
 
 
 class Shown(NamedTuple):
@@ -36,9 +38,10 @@ class Shown(NamedTuple):
 _shown: dict[tuple, Shown] = {}
 _wanted: dict[tuple, None] = {}
 _pictures = None
+_thumbnails = None
 
 
-def shown(text: str, shines: bool, side: int) -> Shown:
+def shown(text: str, shines: bool, side: int, under: str = "D65") -> Shown:
     """
     Return what there is to see of a spectrum; what is not there yet comes by itself.
 
@@ -46,13 +49,43 @@ def shown(text: str, shines: bool, side: int) -> Shown:
     ----------
     shines : whether it is light, and not what a surface does with light
     side : of the square picture [pixels]
+    under : the illuminant that a surface's colour is shown in; empty for no colour
     """
-    key = (text, shines, side, bpy.data.filepath)
+    key = (text, shines, side, under, bpy.data.filepath)
     if key not in _shown and key not in _wanted:
         _wanted[key] = None
         if not bpy.app.background and not bpy.app.timers.is_registered(_make_and_redraw):
             bpy.app.timers.register(_make_and_redraw)
     return _shown.get(key, Shown())
+
+
+def icons(names: Sequence[str], shines: bool) -> list[int]:
+    """Return an icon for each of some names of the library, made when first asked for."""
+    from .. import curves, swatches
+    from ..spectra import library
+
+    assert _thumbnails is not None
+    own, daylight = own_folders(), library.find("D65")
+    for name in names:
+        if (key := f"{name} {shines}") in _thumbnails:
+            continue
+        try:
+            spectrum = library.find(name, own)
+        except RecipeError:
+            spectrum = library.find("E").scaled(0.0)  # a file of the user's own that is none
+        colour = swatches.light_colour(spectrum) if shines else swatches.surface_colour(spectrum, daylight)
+        preview = _thumbnails.new(key)
+        preview.image_size = preview.icon_size = ICON, ICON
+        pixels = curves.curve_icon(spectrum, ICON, colour).ravel()
+        preview.icon_pixels_float.foreach_set(pixels)
+        preview.image_pixels_float.foreach_set(pixels)
+    return [_thumbnails[f"{name} {shines}"].icon_id for name in names]
+
+
+def forget_icons() -> None:
+    """Forget the icons of the library's names, for some mean something else now."""
+    if _thumbnails is not None:
+        _thumbnails.clear()
 
 
 def make_wanted() -> int:
@@ -75,9 +108,9 @@ def forget() -> None:
 
 
 def _made(key: tuple) -> Shown:
-    text, shines, side, _ = key
+    *asked, _ = key
     try:
-        pixels = _pixels(text, shines, side)
+        pixels = _pixels(*asked)
     except (RecipeError, OSError) as error:
         return Shown(0, str(error))
     assert _pictures is not None
@@ -87,15 +120,16 @@ def _made(key: tuple) -> Shown:
     return Shown(preview.icon_id)
 
 
-def _pixels(text: str, shines: bool, side: int):
+def _pixels(text: str, shines: bool, side: int, under: str):
     # numpy and what stands on it take longer to come than enabling may last.
     from .. import curves, swatches
     from ..spectra import Unit, library
-    from ..spectra.spoken import spectrum_from
 
-    spectrum = spectrum_from(text, Unit.SHAPE if shines else Unit.RATIO, blend_folder())
-    light = library.find("D65")
-    colour = swatches.light_colour(spectrum) if shines else swatches.surface_colour(spectrum, light)
+    spectrum = heard(text, Unit.SHAPE if shines else Unit.RATIO)
+    colour = None
+    if under:
+        light = library.find(under)
+        colour = swatches.light_colour(spectrum) if shines else swatches.surface_colour(spectrum, light)
     ink = bpy.context.preferences.themes[0].user_interface.wcol_regular.text
     scale = bpy.context.preferences.system.ui_scale or 1.0  # 0 where there is no window
     magnified = max(round(scale), 1)
@@ -116,18 +150,19 @@ def _after_loading(*_) -> None:
 
 def register() -> None:
     """Make room for pictures."""
-    global _pictures
-    _pictures = bpy.utils.previews.new()
+    global _pictures, _thumbnails
+    _pictures, _thumbnails = bpy.utils.previews.new(), bpy.utils.previews.new()
     bpy.app.handlers.load_post.append(_after_loading)
 
 
 def unregister() -> None:
     """Give all pictures back."""
-    global _pictures
+    global _pictures, _thumbnails
     if bpy.app.timers.is_registered(_make_and_redraw):
         bpy.app.timers.unregister(_make_and_redraw)
     bpy.app.handlers.load_post.remove(_after_loading)
     _shown.clear()
     _wanted.clear()
-    bpy.utils.previews.remove(_pictures)
-    _pictures = None
+    for each in (_pictures, _thumbnails):
+        bpy.utils.previews.remove(each)
+    _pictures = _thumbnails = None

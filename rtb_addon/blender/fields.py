@@ -110,6 +110,15 @@ def typed_in(group, name: str, settings) -> str:
     return typed(text, group.id_data)
 
 
+def is_number(text: str) -> bool:
+    """Whether a text is a plain number."""
+    try:
+        float(text)
+    except ValueError:
+        return False
+    return True
+
+
 def varies(text: str) -> bool:
     """Whether a text names variables of the conditions."""
     return _VARIABLE.search(text) is not None

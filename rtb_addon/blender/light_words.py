@@ -12,10 +12,11 @@ import bpy
 
 from ..errors import RecipeError
 from .fields import typed_in
-from .folders import blend_folder
+from .own_spectra import heard
 from .redrawing import redraw_panels
 
 MOST = 64  # answers that are kept
+LINES = 3
 
 
 class Told(NamedTuple):
@@ -86,14 +87,13 @@ def _lines(light, scene):
 
     from ..photometry import lumens, temperature
     from ..spectra import Unit
-    from ..spectra.spoken import spectrum_from
     from .lamps import read_lamp
 
     units = scene.unit_settings
     meter = 1.0 if units.system == "NONE" else units.scale_length
     lamp = read_lamp(light, meter)
     text = typed_in(light.rtb, "spectrum", scene.rtb)
-    shape = spectrum_from(text, Unit.SHAPE, blend_folder())
+    shape = heard(text, Unit.SHAPE)
     kelvin = temperature(shape)
     yield "No colour temperature" if kelvin is None else f"{kelvin[0]:.0f} K   Duv {kelvin[1]:+.4f}"
     factor = lamp.factor

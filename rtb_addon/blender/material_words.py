@@ -63,19 +63,15 @@ class Words(NamedTuple):
 
 WORDS: Mapping[str, Words] = {
     "diffuseReflectance": Words("reflectance", "Reflectance", f"Reflectance, 0 to 1: {_TYPED}"),
-    "baseColor": Words(
-        "base_reflectance", "Base Reflectance", f"Of the matte or metallic part, 0 to 1: {_TYPED}"
-    ),
+    "baseColor": Words("base_reflectance", "Base", f"Of the matte or metallic part, 0 to 1: {_TYPED}"),
     "specularReflectance": Words(
         "specular_reflectance", "Specular", f"Of the gloss or mirror, 0 to 1: {_TYPED}"
     ),
-    "specularTransmittance": Words(
-        "transmittance", "Transmittance", f"Factor of what is let through: {_TYPED}"
-    ),
-    "eta": Words("eta", "Index (eta)", f"Index {_INDEX}"),
-    "k": Words("k", "Extinction (k)", "Index of extinction, as the index of refraction"),
+    "specularTransmittance": Words("transmittance", "Transmits", f"Factor of what is let through: {_TYPED}"),
+    "eta": Words("eta", "Index n", f"Index {_INDEX}"),
+    "k": Words("k", "Index k", "Index of extinction, as the index of refraction"),
     "intIOR": Words("ior", "Index", f"Index inside, {_INDEX}"),
-    "extIOR": Words("outer_ior", "Index Outside", "Index of refraction of what is around", 3.0),
+    "extIOR": Words("outer_ior", "Outside", "Index of refraction of what is around", 3.0),
     "roughness": Words(
         "roughness", "Roughness", "Width of the slopes of the surface, 0 for a polished one", 1.0
     ),

@@ -8,7 +8,7 @@ from dataclasses import dataclass, field
 from ..errors import RecipeError
 from ..scene.vocabulary import MATERIALS
 from .colours import linear_rec709
-from .fields import varies
+from .fields import is_number, varies
 from .folders import typed
 from .images import gamma_of, picture_of
 from .material_words import is_typed, takes_texture, texture_of, words_of
@@ -100,7 +100,7 @@ def _tagged(material, colour: tuple[float, float, float], meter: float) -> Paint
         pattern = getattr(settings, texture_of(own)) if takes_texture(name, parameter.kind) else None
         if pattern is not None and pattern.kind != "NONE":
             textures[name] = _pattern(pattern, owner)
-        elif is_typed(parameter.kind) and not (parameter.kind == "index" and _is_number(value)):
+        elif is_typed(parameter.kind) and not (parameter.kind == "index" and is_number(value)):
             spectra[name] = Spoken(typed(value, material), owner)
         elif parameter.kind == "number" and isinstance(value, str) and varies(value):
             words[name] = Named("float", value)
@@ -189,11 +189,3 @@ def _number(value, label: str, owner: str) -> float:
         return float(value)
     except ValueError:
         raise RecipeError(f"{owner} has '{value}' for its {label}, which takes a number here") from None
-
-
-def _is_number(text: str) -> bool:
-    try:
-        float(text)
-    except ValueError:
-        return False
-    return True

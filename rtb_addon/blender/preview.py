@@ -15,9 +15,9 @@ from contextlib import contextmanager
 import bpy
 
 from ..errors import RecipeError
-from .folders import blend_folder
 from .mapped import cells_by_name, value_for
 from .nodes import base_colour
+from .own_spectra import heard
 from .table_edits import SPECTRA
 from .varied import Place, changed_along, found_at, give_back, kept_value, set_value, value_at
 
@@ -169,12 +169,11 @@ def _colour(group, field: str, settings, shines: bool) -> list[float]:
     # numpy takes longer to come than enabling may last.
     from .. import swatches
     from ..spectra import Unit, library
-    from ..spectra.spoken import spectrum_from
     from .colours import in_working_space
     from .fields import typed_in
 
     unit = Unit.SHAPE if shines else Unit.RATIO
-    spectrum = spectrum_from(typed_in(group, field, settings), unit, blend_folder())
+    spectrum = heard(typed_in(group, field, settings), unit)
     if shines:
         return in_working_space(swatches.light_colour(spectrum))
     return in_working_space(swatches.surface_colour(spectrum, library.find("D65")))

@@ -31,6 +31,14 @@ INTEGRATORS = (
     ("path", "Path", "Light that is reflected many times", 1),
     ("direct", "Direct", "Light that comes straight from a lamp", 2),
 )
+UNITS = (
+    ("si", "SI", "A point light's numbers are W / (sr nm)", 1),
+    ("rtb3", "RenderToolbox3", "Total power", 2),
+)
+HANDEDNESS = (
+    ("blender", "Blender", "Pictures show what the camera shows", 1),
+    ("rtb3", "RenderToolbox3", "Pictures are mirrored unless a mapping flips the camera", 2),
+)
 FILTERS = (
     ("box", "Box", "Each path counts for the pixel that it goes through", 1),
     ("tent", "Tent", "Falls straight to nothing within a pixel", 2),
@@ -52,7 +60,23 @@ EMISSIONS = (
     ("radiance", "Radiance", "The amount is a factor of a spectrum of radiance, in W / (sr m² nm)", 1),
     ("watts", "Watts", "The amount is the power in watts that the surface sends out", 2),
     ("lumens", "Lumens", "The amount is the luminous flux that the surface sends out", 3),
-    ("nits", "Luminance (cd/m²)", "The amount is how bright the surface looks", 4),
+    ("nits", "cd/m²", "The amount is the luminance, how bright the surface looks", 4),
+)
+SWATCH_LIGHTS = tuple(
+    (name, f"{name} ({words})", "", number)
+    for number, (name, words) in enumerate(
+        {
+            "D65": "Noon Daylight",
+            "D50": "Morning Daylight",
+            "A": "Incandescent",
+            "E": "Equal Energy",
+            "FL2": "Cool White Fluorescent",
+            "FL11": "Narrow Band Fluorescent",
+            "HP1": "Sodium",
+            "LED-B3": "White LED",
+        }.items(),
+        1,
+    )
 )
 SKIES = (
     ("CONSTANT", "Everywhere", "The same from all directions", 1),
@@ -60,7 +84,7 @@ SKIES = (
 )
 SKY_MEASURES = (
     ("RADIANCE", "Radiance", "The amount is a factor of a spectrum of radiance, in W / (sr m² nm)", 1),
-    ("NITS", "Luminance (cd/m²)", "The amount is how bright it looks", 2),
+    ("NITS", "cd/m²", "The amount is the luminance, how bright it looks", 2),
 )
 _SPOKEN = (
     "a name of the library (D65), daylight 5000, blackbody 3000, pairs like 400:0.2 700:0.8, a number, "
@@ -124,7 +148,19 @@ class RTB_PG_scene(bpy.types.PropertyGroup):
         type=bpy.types.Text, name="Further Mappings", description="Mappings in the words of RenderToolbox3"
     )
     kept: CollectionProperty(type=RTB_PG_kept)
+    # Of a recipe that was opened: what its numbers mean, where its spectra lie, options that have no button.
+    units: EnumProperty(items=UNITS, default="si", options={"HIDDEN"})
+    handedness: EnumProperty(items=HANDEDNESS, default="blender", options={"HIDDEN"})
+    resources: StringProperty(
+        name="Resources",
+        description="Folder of the files that written mappings and cells name",
+        subtype="DIR_PATH",
+    )
+    further: StringProperty(options={"HIDDEN"})
     active_mapping: IntProperty(options={"HIDDEN", "SKIP_SAVE"}, min=0)
+    seen_under: EnumProperty(
+        name="Swatches Under", description="The light that swatches show surfaces in", items=SWATCH_LIGHTS
+    )
     active_variable: IntProperty(options={"HIDDEN", "SKIP_SAVE"}, min=0)
     active_condition: IntProperty(options={"HIDDEN", "SKIP_SAVE"}, min=0, update=table_properties.row_chosen)
 

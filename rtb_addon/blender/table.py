@@ -14,6 +14,7 @@ from ..spectra import Spectrum, Unit
 from ..spectra.files import spd_text
 from ..spectra.spoken import spectrum_from
 from .conditions import IMAGE_NAME
+from .own_spectra import own_folders
 from .statements import Named, Picture, Spoken, Statement, Varied
 
 _VARIABLE = re.compile(r"\(([^()]+)\)")
@@ -217,7 +218,7 @@ def _heard(spoken: Spoken, text: str, folder: Path | None) -> Spectrum:
     """Return a spectrum that was typed, in the unit that it is for."""
     as_typed = Unit.SHAPE if spoken.is_shape else spoken.unit
     try:
-        return spoken.meant(spectrum_from(text, as_typed, folder))
+        return spoken.meant(spectrum_from(text, as_typed, folder, own_folders()))
     except (RecipeError, ValueError) as error:
         raise RecipeError(f"{spoken.owner}: {error}") from error
 

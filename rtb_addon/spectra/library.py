@@ -8,7 +8,7 @@ process must not import, and from the refractiveindex.info database (packaging/m
 from __future__ import annotations
 
 import re
-from collections.abc import Mapping
+from collections.abc import Iterable, Mapping
 from difflib import get_close_matches
 from functools import cache
 from pathlib import Path
@@ -16,6 +16,7 @@ from pathlib import Path
 import numpy as np
 
 from ..errors import RecipeError
+from .files import read_spd
 from .spectrum import Spectrum, Unit
 
 _DATA = Path(__file__).parents[1] / "data"
@@ -26,15 +27,29 @@ _OLD_PATCH = re.compile(r"mccbabel-(\d+)\.spd")
 _ROWS, _COLUMNS = 4, 6
 
 CHART = "BabelColor Average"
+OWN = "Own/"
 
 
-def names() -> list[str]:
+def names(folders: Iterable[Path] = ()) -> list[str]:
     """
-    Return every spectrum's name: illuminants, each checker's patches in the chart's order, indices.
+    Return every spectrum's name: illuminants, each checker's patches in the chart's order, indices, own ones.
 
     Metals have two, ``Metals/Cu copper eta`` and ``Metals/Cu copper k``; glasses one, ``Glasses/N-BK7``.
+
+    Parameters
+    ----------
+    folders : of somebody's own ``.spd`` files, which are called ``Own/`` and their path in there
     """
-    return list(_all())
+    return [*_all(), *own_files(folders)]
+
+
+def own_files(folders: Iterable[Path]) -> dict[str, Path]:
+    """Return somebody's own files by their names in the library; of two with one name, the first counts."""
+    found: dict[str, Path] = {}
+    for folder in folders:
+        for file in sorted(folder.rglob("*.spd")):
+            found.setdefault(OWN + file.relative_to(folder).with_suffix("").as_posix(), file)
+    return found
 
 
 def metals() -> list[str]:
@@ -42,16 +57,18 @@ def metals() -> list[str]:
     return [name.removesuffix(" eta") for name in _all() if name.endswith(" eta")]
 
 
-def find(name: str) -> Spectrum:
+def find(name: str, folders: Iterable[Path] = ()) -> Spectrum:
     """
     Return a spectrum by its name, in any case of letters.
 
     Illuminants (``D65``) are relative, as the CIE tabulates them; patches (``BabelColor Average/blue``) are
     reflectances; of metals and glasses there are indices of refraction, and of metals those of extinction.
     """
-    known = {each.lower(): each for each in _all()}
-    if (key := name.strip().lower()) in known:
-        return _all()[known[key]]
+    key = name.strip().lower()
+    own = own_files(folders) if key.startswith(OWN.lower()) else {}
+    known = {each.lower(): each for each in (*_all(), *own)}
+    if key in known:
+        return read_spd(own[known[key]]) if known[key] in own else _all()[known[key]]
     near = [known[each] for each in get_close_matches(key, known, n=3, cutoff=0.5)]
     remedy = f"did you mean {', '.join(near)}" if near else "its names are those of colour-science, like D65"
     raise RecipeError(f"no spectrum of the library is called '{name.strip()}', {remedy}")

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import re
-from collections.abc import Callable
+from collections.abc import Callable, Iterable
 from dataclasses import replace
 from pathlib import Path
 
@@ -19,7 +19,9 @@ _SOURCE = re.compile(r"(daylight|blackbody)\s+(\S+?)\s*k?", re.IGNORECASE)
 _STARTS_AS_NUMBER = re.compile(r"[-+]?\.?\d\S*(\s|$)")
 
 
-def spectrum_from(text: str, unit: Unit = Unit.RATIO, folder: Path | None = None) -> Spectrum:
+def spectrum_from(
+    text: str, unit: Unit = Unit.RATIO, folder: Path | None = None, own: Iterable[Path] = ()
+) -> Spectrum:
     """
     Return the spectrum that a person means.
 
@@ -29,6 +31,7 @@ def spectrum_from(text: str, unit: Unit = Unit.RATIO, folder: Path | None = None
         or a name of the library
     unit : what the values are to be taken as
     folder : where a relative file is looked for; the working folder if None
+    own : folders of somebody's own spectra, which the library then has as well
 
     Notes
     -----
@@ -36,19 +39,19 @@ def spectrum_from(text: str, unit: Unit = Unit.RATIO, folder: Path | None = None
     """
     spoken = text.strip()
     try:
-        return replace(_meant(spoken, unit, folder or Path()), unit=unit)
+        return replace(_meant(spoken, unit, folder or Path(), own), unit=unit)
     except ValueError as error:
         raise RecipeError(f"'{spoken}': {error}" if spoken else str(error)) from error
 
 
-def _meant(text: str, unit: Unit, folder: Path) -> Spectrum:
+def _meant(text: str, unit: Unit, folder: Path, own: Iterable[Path]) -> Spectrum:
     if text.lower().endswith(".spd"):
         return _from_file(text, unit, folder)
     if source := _SOURCE.fullmatch(text):
         return _SOURCES[source.group(1).lower()](_kelvin(source.group(2)))
     if not text or ":" in text or _STARTS_AS_NUMBER.match(text):
         return parse_spectrum(text, unit)
-    return find(text)
+    return find(text, own)
 
 
 def _from_file(name: str, unit: Unit, folder: Path) -> Spectrum:

@@ -35,6 +35,8 @@ class RecordingLayout:
         self.drawn.append(("operator", name))
         return type("Properties", (), {})()
 
+    prop_menu_enum = prop
+
     def context_string_set(self, name: str, value: str) -> None:
         self.drawn.append(("context", f"{name}={value}"))
 

@@ -140,6 +140,7 @@ def test_the_panel_tells_what_the_light_comes_to(scene, lamp, library):
     light = lamp("POINT", energy=100).data
     light.rtb.use_spectra, light.rtb.spectrum = True, "D65"
     words = library("blender.light_words")
+    words.tell_wanted()
     assert words.told(light, scene) == words.Told(), "nothing is worked out while drawing"
     assert words.tell_wanted() == 1
     colour, radiometric, photometric = words.told(light, scene).lines

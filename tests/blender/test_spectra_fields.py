@@ -204,3 +204,90 @@ def test_the_curve_of_a_variable_is_that_of_the_active_condition(material, libra
     material.reflectance = "400:(paint) 700:(gone)"
     settings.active_condition = 0
     assert typed_in(material, "reflectance", settings) == "400:0.1 700:(gone)"
+
+
+# The user's own spectra
+
+
+@pytest.fixture
+def own(extension, tmp_path, previews):
+    """A folder that the user prefers for spectra of their own."""
+    preferences = bpy.context.preferences.addons[extension].preferences
+    (tmp_path / "own").mkdir()
+    preferences.spectra = str(tmp_path / "own")
+    yield tmp_path / "own"
+    preferences.spectra = ""
+
+
+def test_imported_spectra_are_found_in_the_library_and_mean_the_same_everywhere(
+    material, own, previews, read
+):
+    (own.parent / "paints.csv").write_text("nm,red,blue\n400,0.1,0.9\n700,0.8,0.2\n")
+    assert bpy.ops.rtb.import_spectra(filepath=str(own.parent / "paints.csv")) == {"FINISHED"}
+    assert sorted(file.name for file in own.rglob("*.spd")) == ["blue.spd", "red.spd"]
+    bpy.ops.rtb.use_library_spectrum(field="REFLECTANCE", name="Own/paints/red")
+    assert material.reflectance == "Own/paints/red"
+    previews.shown(material.reflectance, False, 40)
+    previews.make_wanted()
+    assert not previews.shown(material.reflectance, False, 40).sentence
+    assert read(bpy.context.scene).resources["Material.spd"] == (own / "paints/red.spd").read_bytes()
+
+
+def test_the_toolboxs_files_are_dropped_on_the_window(own, extension):
+    from scipy.io import savemat
+
+    savemat(own.parent / "sur_x.mat", {"S_x": [400, 100, 3], "sur_x": [[0.1, 0.2], [0.3, 0.4], [0.5, 0.6]]})
+    handler = bpy.types.RTB_FH_spectra
+    assert handler.bl_import_operator == "rtb.import_spectra"
+    assert ".mat" in handler.bl_file_extensions
+    dropped = {"directory": str(own.parent), "files": [{"name": "sur_x.mat"}]}
+    assert bpy.ops.rtb.import_spectra(**dropped) == {"FINISHED"}
+    assert (own / "sur_x/sur_x-2.spd").read_text().splitlines() == ["400 0.2", "500 0.4", "600 0.6"]
+    assert "scipy.io" not in {name for name in sys.modules if name.startswith(extension)}
+
+
+def test_a_file_that_is_no_spectrum_leaves_the_library_alone(own):
+    (own.parent / "odd.csv").write_text("nm,red\n400,blue\n")
+    said = sentence(bpy.ops.rtb.import_spectra, filepath=str(own.parent / "odd.csv"))
+    assert "odd.csv" in said
+    assert not list(own.rglob("*.spd"))
+
+
+def test_each_field_is_offered_what_fits_it(material, own, extension, previews):
+    offers = sys.modules[f"{extension}.operators.use_library_spectrum"]
+
+    def names(field):
+        return [item[0] for item in offers._names(SimpleNamespace(field=field), bpy.context)]
+
+    assert "Metals/Au gold eta" in names("ETA")
+    assert not [name for name in names("K") if not name.endswith(" k")]
+    assert "Glasses/water" in names("IOR")
+    assert "D65" in names("LIGHT")
+    assert not [name for name in names("REFLECTANCE") if name.startswith(("Metals/", "Glasses/"))]
+    offers.forget()
+    assert len(previews._thumbnails) == 0
+    assert len(names("LIGHT")) == len(previews._thumbnails), "each has its curve as an icon"
+
+
+def test_a_table_is_edited_as_numbers(material):
+    table = [{"name": "", "wavelength": nm, "value": value} for nm, value in ((700, 0.5), (400, 0.25))]
+    bpy.ops.rtb.use_table(field="REFLECTANCE", samples=table)
+    assert material.reflectance == "400:0.25 700:0.5"
+    table[0]["wavelength"] = 400
+    assert "have the same wavelength" in sentence(bpy.ops.rtb.use_table, field="REFLECTANCE", samples=table)
+    assert "the table is empty" in sentence(bpy.ops.rtb.use_table, field="REFLECTANCE")
+
+
+def test_swatches_are_shown_under_the_chosen_light(material, previews, library):
+    colours = []
+    for light in ("D65", "A", ""):
+        previews.forget()
+        previews.shown("0.8", False, 40, light)
+        previews.make_wanted()
+        (preview,) = previews._pictures.values()
+        pixels = np.empty(math.prod(preview.image_size) * 4, np.float32)
+        preview.image_pixels_float.foreach_get(pixels)
+        colours.append(pixels.reshape(40, 40, 4)[2, 30])
+    assert colours[0][0] == pytest.approx(colours[0][2], abs=0.02), "white in daylight"
+    assert colours[1][0] > 1.5 * colours[1][2], "orange in the light of a bulb"
+    assert colours[2][3] == 0, "none for what has no colour"
