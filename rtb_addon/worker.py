@@ -23,7 +23,7 @@ from typing import TYPE_CHECKING, Any, TextIO
 
 from .background import Event
 from .errors import Cancelled, RecipeError, RenderingError
-from .lifeline import stop_for_good, watch_parent
+from .lifeline import stop_for_good, watch_parent, watch_standstill
 
 if TYPE_CHECKING:
     from .batch.saving import Rendering, Unsaved
@@ -112,10 +112,13 @@ def main() -> None:
     # Only now: a worker listens to its parent before it imports what takes a while.
     from .batch import rendering  # noqa: F401
 
-    saver = Saver(desk)
+    saver, busy = Saver(desk), threading.Event()
+    watch_standstill(busy.is_set)
     recipes: dict[tuple[str, str], Recipe] = {}
     while (task := desk.next_task()) is not None:
+        busy.set()
         made = attempt(task.condition, partial(_rendered, task, recipes, desk))
+        busy.clear()
         desk.tell(made) if isinstance(made, Event) else saver.take(made)
     saver.finish()
 

@@ -120,5 +120,7 @@ def _cause_of_death(worker: EventStream) -> str:
     """Return how a worker ended and its last words, for one sentence."""
     code = worker.process.returncode
     how = f"killed by {signal.Signals(-code).name}" if code < 0 else f"with exit status {code}"
-    words = worker.last_words().splitlines()
-    return f"{how}, saying: {words[-1][:300]}" if words else how
+    if words := worker.last_words().splitlines():
+        return f"{how}, saying: {words[-1][:300]}"
+    # Nobody else sends this one unasked.
+    return f"{how}, perhaps for want of memory" if how.endswith("SIGKILL") else how

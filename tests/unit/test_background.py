@@ -210,3 +210,30 @@ def test_a_child_that_nobody_asks_for_does_not_stay(sitter):
     stop_early()
     assert not runs(early.pid)
     assert background._early == {}
+
+
+@pytest.mark.parametrize(
+    ("does", "status", "words"),
+    [
+        # A lock that nobody opens, as one that a library has lost.
+        ("lock = threading.Lock(); lock.acquire(); lock.acquire()", 75, "it stood still"),
+        ("end = time.monotonic() + 1.5\nwhile time.monotonic() < end: pass", 0, ""),
+    ],
+)
+def test_a_process_that_stands_still_ends_and_a_slow_one_goes_on(does, status, words):
+    script = (
+        "import threading, time; from rtb_addon.lifeline import watch_standstill; "
+        f"watch_standstill(lambda: True, 0.5, 0.1)\n{does}"
+    )
+    child = subprocess.run([sys.executable, "-c", script], capture_output=True, text=True, timeout=20)
+    assert child.returncode == status
+    assert child.stderr.startswith(words)
+    assert bool(child.stderr) == bool(words)
+
+
+def test_who_has_nothing_to_do_may_stand_still():
+    script = (
+        "import time; from rtb_addon.lifeline import watch_standstill; "
+        "watch_standstill(lambda: False, 0.3, 0.1); time.sleep(1)"
+    )
+    assert subprocess.run([sys.executable, "-c", script], timeout=20).returncode == 0
