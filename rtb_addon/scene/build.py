@@ -156,6 +156,7 @@ class SceneBuilder(ParentDocument):
         placement: Where = UNMOVED,
         parent: str | None = None,
         lens: tuple[float, float] | None = None,
+        width: float | None = None,
     ) -> str:
         """
         Make a camera that looks along -Z, with +Y up.
@@ -167,30 +168,17 @@ class SceneBuilder(ParentDocument):
         clip : near and far [scene units]
         shift : of the picture, right and up, as fractions of its longer side
         lens : radius of a thin lens and the distance that is sharp [scene units]; None for a pinhole
+        width : of a parallel view [scene units], which has no angle and no lens; None for a perspective
         """
-        eye = self.eye(name, write_collada.perspective(xfov, aspect, clip), shift, lens)
-        return self._seen(name, eye, placement, parent)
-
-    def orthographic_camera(
-        self,
-        name: str = "Camera",
-        width: float = 6.0,
-        aspect: float = 4 / 3,
-        clip: tuple[float, float] = _CLIP,
-        shift: tuple[float, float] = (0.0, 0.0),
-        placement: Where = UNMOVED,
-        parent: str | None = None,
-    ) -> str:
-        """Make a camera with a parallel view of a width [scene units]; the rest is as for camera()."""
-        eye = self.eye(name, write_collada.orthographic(width, aspect, clip), shift)
-        return self._seen(name, eye, placement, parent)
+        if width is None:
+            view = write_collada.perspective(xfov, aspect, clip)
+        else:
+            view = write_collada.orthographic(width, aspect, clip)
+        node = self.node(name, placement, parent)
+        self.use_eye(node, self.eye(name, view, shift, lens))
+        return node
 
     def _lit(self, name: str, lamp: str, placement: Where, parent: str | None) -> str:
         node = self.node(name, placement, parent)
         self.use_lamp(node, lamp)
-        return node
-
-    def _seen(self, name: str, eye: str, placement: Where, parent: str | None) -> str:
-        node = self.node(name, placement, parent)
-        self.use_eye(node, eye)
         return node

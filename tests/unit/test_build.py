@@ -55,7 +55,7 @@ def everything() -> SceneBuilder:
     scene.spot("Spot", parent="Ball")
     scene.sun("Sun")
     scene.camera(shift=(0.25, 0))
-    scene.orthographic_camera("Parallel")
+    scene.camera("Parallel", width=6.0)
     return scene
 
 

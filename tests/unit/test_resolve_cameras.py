@@ -43,7 +43,7 @@ def test_shift_is_a_fraction_of_the_longer_side(size, expected):
 
 def test_an_orthographic_view_is_twice_xmag_wide():
     builder = room(camera=False)
-    builder.orthographic_camera(width=6.0, shift=(0.1, 0.2))
+    builder.camera(width=6.0, shift=(0.1, 0.2))
     camera = resolved(builder).scene.camera
     assert camera.projection == "orthographic"
     assert camera.window == pytest.approx((-2.4, 3.6, -1.05, 3.45))  # Blender's view_frame() again
