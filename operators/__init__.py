@@ -9,6 +9,7 @@ from .cancel_rendering import RTB_OT_cancel_rendering
 from .check_recipe import RTB_OT_check_recipe
 from .compare_renderers import RTB_OT_compare_renderers
 from .copy_conditions import RTB_OT_copy_conditions
+from .dropped_files import RTB_FH_recipe
 from .duplicate_condition import RTB_OT_duplicate_condition
 from .duplicate_variable import RTB_OT_duplicate_variable
 from .edit_mapping import RTB_OT_edit_mapping
@@ -23,6 +24,7 @@ from .fill_pairs import RTB_OT_fill_pairs
 from .fill_random import RTB_OT_fill_random
 from .fill_range import RTB_OT_fill_range
 from .import_conditions import RTB_OT_import_conditions
+from .import_recipe import RTB_OT_import_recipe
 from .import_spectra import RTB_FH_spectra, RTB_OT_import_spectra
 from .move_condition import RTB_OT_move_condition
 from .move_variable import RTB_OT_move_variable
@@ -99,6 +101,8 @@ CLASSES = (
     RTB_OT_select_variable,
     RTB_OT_turn_page,
     RTB_OT_check_recipe,
+    RTB_OT_import_recipe,
+    RTB_FH_recipe,
     RTB_OT_compare_renderers,
     RTB_OT_edit_mapping,
     RTB_OT_edit_mapping_line,

@@ -35,7 +35,8 @@ class RTB_OT_check_recipe(bpy.types.Operator):
             folder = findings.exported(recipe)
         except RecipeError as error:
             findings.clear()
-            findings.note(dict.fromkeys([*problems, str(error)]))
+            told = any(each in str(error) or str(error) in each for each in problems)
+            findings.note([*problems, *([] if told else [str(error)])])
             self.report({"WARNING"}, _counted(len(findings.errors)))
             return {"FINISHED"}
         findings.note(problems)

@@ -38,6 +38,8 @@ def note(problems: Iterable[str] = (), others: Iterable[str] = ()) -> None:
                 if (culprit := culprit_of(sentence, bpy.context.scene, mappings, generated)) is not None:
                     culprits[sentence] = culprit
     redraw_panels()
+    if not bpy.app.background:  # panels below one that grows move a moment later
+        bpy.app.timers.register(redraw_panels, first_interval=0.2)
 
 
 def exported(recipe, folder: str = "") -> Path:

@@ -12,6 +12,8 @@ from ..operators.remove_mapping_line import RTB_OT_remove_mapping_line
 from ..rtb_addon.blender import mapping_sentences as words
 from .sentences import draw_sentence
 
+EQUALS = "\N{NO-BREAK SPACE}="  # stays on the line of the last word
+
 
 class RTB_PT_mappings(bpy.types.Panel):
     """What conditions change in the scene"""
@@ -45,7 +47,7 @@ def draw_spectrum_mapping(layout, mapping: words.Spectral, width: int) -> None:
     """Draw a spectrum that names variables, with the field that says so."""
     column = layout.column(align=True)
     column.alert = bool(mapping.missing)
-    draw_sentence(column, f"{mapping.subject} =", width, "ERROR" if mapping.missing else mapping.icon)
+    draw_sentence(column, f"{mapping.subject}{EQUALS}", width, "ERROR" if mapping.missing else mapping.icon)
     column.prop(mapping.group, mapping.name, text="")
     draw_missing(column, mapping.missing, width)
 
@@ -55,7 +57,9 @@ def draw_property_mapping(layout, scene, mapping, index: int, width: int) -> Non
     missing = words.missing(scene, mapping)
     column = layout.column(align=True)
     column.alert = bool(missing)
-    draw_sentence(column, f"{mapping.name} =", width, "ERROR" if missing else words.icon_of(mapping.thing))
+    draw_sentence(
+        column, f"{mapping.name}{EQUALS}", width, "ERROR" if missing else words.icon_of(mapping.thing)
+    )
     row = column.row(align=True)
     row.prop(mapping, "value", text="")
     row.operator_context = "INVOKE_DEFAULT"

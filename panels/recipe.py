@@ -4,7 +4,7 @@ import bpy
 
 from ..operators import findings, running
 from ..operators.check_recipe import RTB_OT_check_recipe
-from ..operators.export_recipe import RTB_OT_export_recipe
+from ..operators.compare_renderers import RTB_OT_compare_renderers
 from ..operators.open_folder import RTB_OT_open_folder
 from ..operators.pack_recipe import RTB_OT_pack_recipe
 from ..operators.render_condition import RTB_OT_render_condition
@@ -57,9 +57,9 @@ def draw_run(layout) -> None:
     grid.operator(RTB_OT_render_condition.bl_idname)
     grid.operator(RTB_OT_check_recipe.bl_idname, icon="CHECKMARK")
     grid.operator(RTB_OT_show_montage.bl_idname)
-    grid.operator(RTB_OT_open_folder.bl_idname, icon="FILE_FOLDER")
-    grid.operator(RTB_OT_export_recipe.bl_idname)
     grid.operator_context = "INVOKE_DEFAULT"
+    grid.operator(RTB_OT_compare_renderers.bl_idname, text="Compare…", icon="ARROW_LEFTRIGHT")
+    grid.operator(RTB_OT_open_folder.bl_idname)
     grid.operator(RTB_OT_pack_recipe.bl_idname, text="Pack…", icon="PACKAGE")
 
 

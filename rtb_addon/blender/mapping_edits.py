@@ -50,6 +50,20 @@ def owner_and_path(struct, name: str) -> tuple[object, str] | None:
     return None if thing is None or home_of(thing) is None else (thing, path)
 
 
+def varying(struct, kind) -> tuple[object, str] | None:
+    """Return the datablock and the path of a property that conditions could set, None for any other."""
+    if isinstance(struct, bpy.types.PropertyGroup) and isinstance(struct.id_data, bpy.types.Scene):
+        return None  # the recipe itself
+    found = owner_and_path(struct, kind.identifier)
+    if found is None:
+        return None
+    try:
+        refuse_fixed(found_at(*found, -1, ""), *found, "")
+    except RecipeError:
+        return None
+    return found
+
+
 def vary(settings, thing, path: str, index: int, variable: str = "") -> str:
     """Let conditions say a property, as it is now at first; return the name of the variable."""
     called = subject(thing, path, index)

@@ -127,7 +127,9 @@ def _thing(id: str) -> str:
 def _property(path: str) -> str:
     last = path.split(":")[-1]
     name = last.partition("=")[2] or last
-    return re.sub(r"(?<=[a-z])(?=[A-Z])", " ", name).capitalize()
+    words = re.sub(r"(?<=[a-z])(?=[A-Z])", " ", name).split()
+    said = " ".join(each if each.isupper() else each.lower() for each in words)
+    return said[:1].upper() + said[1:]
 
 
 def _value(text: str) -> str:

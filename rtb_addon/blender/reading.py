@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import json
 from collections import Counter
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, replace
@@ -12,6 +13,7 @@ import bpy
 from ..conditions import Condition, Conditions
 from ..errors import RecipeError
 from ..recipe import Conventions, MontageOptions, RecipeOptions, write_recipe
+from ..recipe.options import section
 from ..scene.differences import Told, told_apart
 from ..scene.write_numbers import shortest
 from .baked import PARENT_COLUMNS, Remodel, at_condition, baked, merged, parent_files
@@ -26,7 +28,7 @@ from .preview import suspended
 from .seen import Seen, seen_in
 from .table import SpectrumFiles, Table, mappings_text
 from .varied import set_value, subject_of, value_at
-from .written_mappings import written_mappings
+from .written_mappings import declared_in, resources_of, written_mappings
 
 _CAMERA = "camera"
 STILL = "still"  # the folder, below the recipe's, of what Blender's own Render Image renders
@@ -49,6 +51,7 @@ class SceneRecipe:
 
     name: str
     options: RecipeOptions
+    conventions: Conventions
     montage: MontageOptions
     parent: bytes
     conditions: Conditions
@@ -68,7 +71,7 @@ class SceneRecipe:
             chosen,
             self.name,
             self.options,
-            Conventions(),
+            self.conventions,
             self.montage,
             self.parent,
             self.conditions,
@@ -136,18 +139,22 @@ def _recipe(
     cells, further = parent_files(names, told.contents)
     if further:
         table.varied(PARENT_COLUMNS[0], cells)
-    statements = merged(names, [each.statements for each in parents])
+    declared = declared_in(scene)
+    statements = [
+        each for each in merged(names, [one.statements for one in parents]) if each.id not in declared
+    ]
     mappings = mappings_text(statements, table, files, blend_folder()) + paths_text(told.values, table)
     generated = mappings.count("\n")
     return SceneRecipe(
         name,
         _options(scene, camera),
+        Conventions(scene.rtb.units, scene.rtb.handedness),
         MontageOptions(scene.rtb.montage_columns or None, scene.rtb.montage_fill),
         told.contents[0],
         table.conditions(name),
         mappings + written_mappings(scene),
         generated,
-        {**files.contents, **further},
+        {**resources_of(scene), **files.contents, **further},
         _provenance(),
         tuple(dict.fromkeys(remark for each in looks for remark in each.remarks)),
         _folder(scene),
@@ -212,8 +219,11 @@ def _baked(scene, table: Table, remodel: Remodel) -> list[_Look]:
 
 
 def _options(scene, camera: str) -> RecipeOptions:
+    """Return the options that the scene says, and those that it has kept of a recipe that was opened."""
     settings = scene.rtb
-    return RecipeOptions(
+    kept = section(RecipeOptions, json.loads(settings.further)) if settings.further else RecipeOptions()
+    return replace(
+        kept,
         renderer=settings.renderer,
         width=settings.width,
         height=settings.height,

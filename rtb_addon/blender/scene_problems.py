@@ -75,13 +75,15 @@ def _of_spectrum(scene, owner: str, text: str) -> Iterator[str]:
         return
     if used and not len(settings.conditions):
         yield f"{owner} uses ({used[0]}), but there are no conditions"
-    rows = [cells_by_name(settings, row) for row in settings.conditions] if used else [{}]
-    for number, cells in enumerate(rows):
-        if empty := [name for name in used if not cells[name].strip()]:
-            row = settings.conditions[number].name.strip() or f"{recipe_name(scene)}-{number + 1:03}"
-            yield f"the condition {row} says nothing for {empty[0]}, {owner} needs it"
+    if not used:
+        yield from _unreadable(owner, text)
+    for number, row in enumerate(settings.conditions if used else (), 1):
+        cells, name = cells_by_name(settings, row), row.name.strip() or f"{recipe_name(scene)}-{number:03}"
+        if empty := [each for each in used if not cells[each].strip()]:
+            yield f"the condition {name} says nothing for {empty[0]}, {owner} needs it"
         else:
-            yield from _unreadable(owner, VARIABLE.sub(lambda found, said=cells: said[found[1]], text))
+            said = VARIABLE.sub(lambda found, cells=cells: cells[found[1]], text)
+            yield from (f"the condition {name}: {each}" for each in _unreadable(owner, said))
 
 
 def _unreadable(owner: str, text: str) -> Iterator[str]:

@@ -42,7 +42,8 @@ class Place(NamedTuple):
 
 def place_of(mapping) -> Place:
     """Return where the property of a mapping is, or raise what is missing."""
-    if mapping.thing is None:
+    lost = isinstance(mapping.thing, bpy.types.Object) and not mapping.thing.users_scene
+    if mapping.thing is None or lost:
         raise RecipeError(f"{subject_of(mapping)}: what it belongs to is gone, choose another or remove this")
     return found_at(mapping.thing, mapping.path, mapping.index, subject_of(mapping))
 

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import re
+from pathlib import Path
 from typing import NamedTuple
 
 import bpy
@@ -36,6 +38,24 @@ def written_mappings(scene) -> str:
     said = text.as_string().rstrip()
     parse_mappings(said, text.name)
     return f"{said}\n" if said else ""
+
+
+def declared_in(scene) -> set[str]:
+    """Return the ids that written mappings declare themselves, in Generic blocks for all conditions."""
+    lines, _ = written_lines(scene)
+    said = [each.text for each in lines if each.kind.lower() == "generic" and not each.group]
+    return {found[1] for text in said if (found := _DECLARED.fullmatch(text))}
+
+
+def resources_of(scene) -> dict[str, bytes]:
+    """Return the files that written mappings and cells may name, by their names below resources/."""
+    if not (said := scene.rtb.resources.strip()):
+        return {}
+    folder = Path(bpy.path.abspath(said))
+    if not folder.is_dir():
+        raise RecipeError(f"there is no folder {folder}, in which the spectra of this recipe lay")
+    files = [each for each in sorted(folder.rglob("*")) if each.is_file()]
+    return {each.relative_to(folder).as_posix(): each.read_bytes() for each in files}
 
 
 def written_lines(scene) -> tuple[list[Written], str]:
@@ -96,4 +116,5 @@ _BEGINNING = """% What conditions change, in the words of RenderToolbox3; see do
 Generic {
 }
 """
+_DECLARED = re.compile(r"([^:.$=\s]+):(?:material|light):\w+")
 _known: dict = {"text": None, "lines": ([], "")}

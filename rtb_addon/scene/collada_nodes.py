@@ -59,16 +59,22 @@ def metres_per_unit(document: Scene) -> float:
 
 def instances(document: Scene) -> Iterator[Instance]:
     """Yield what the visual scene holds, in the order of the document."""
-    up = text_of(child(document.root, "asset", "up_axis")) or "Y_UP"
-    if up not in _UP:
-        raise RecipeError(f"up_axis is {up}, want one of {', '.join(_UP)}", document.file)
     world = np.eye(4)
-    world[:3, :3] = _UP[up] * metres_per_unit(document)
-    for node in children(_visual_scene(document), "node"):
+    world[:3, :3] = axes_up(document) * metres_per_unit(document)
+    for node in children(visual_scene(document), "node"):
         yield from _below(document, node, world, ())
 
 
-def _visual_scene(document: Scene) -> Element:
+def axes_up(document: Scene) -> FloatArray:
+    """Return what becomes of a document's axes where Z is up, (3, 3)."""
+    up = text_of(child(document.root, "asset", "up_axis")) or "Y_UP"
+    if up not in _UP:
+        raise RecipeError(f"up_axis is {up}, want one of {', '.join(_UP)}", document.file)
+    return _UP[up]
+
+
+def visual_scene(document: Scene) -> Element:
+    """Return the element that holds a document's nodes."""
     chosen = child(document.root, "scene", "instance_visual_scene")
     if chosen is not None:
         return document.linked(chosen.get("url"), "visual_scene")

@@ -54,7 +54,7 @@ def test_the_recipes_panel_offers_what_can_be_done(panel, running):
     layout = panel("recipe", "RTB_PT_recipe")
     assert layout.names("operator") == [
         *("rtb.render_recipe", "rtb.render_condition", "rtb.check_recipe"),
-        *("rtb.show_montage", "rtb.open_folder", "rtb.export_recipe", "rtb.pack_recipe"),
+        *("rtb.show_montage", "rtb.compare_renderers", "rtb.open_folder", "rtb.pack_recipe"),
     ]
     assert layout.names("prop") == ["name", "folder"]
 

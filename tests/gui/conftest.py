@@ -75,6 +75,21 @@ def blender(tmp_path_factory) -> RealBlender:
     return real
 
 
+@pytest.fixture(scope="module")
+def report(request, blender, tmp_path_factory) -> dict:
+    """What the script of a test module, SCRIPT, found out, in a window where it says so."""
+    script, window = request.module.SCRIPT, getattr(request.module, "WINDOW", False)
+    folder = tmp_path_factory.mktemp(script.removesuffix(".py"))
+    pictures = [str(PICTURES)] if window else []
+    return blender.run_script(script, folder / "report.json", str(folder / "home"), *pictures, window=window)
+
+
+@pytest.fixture
+def shows(report):
+    """Return how to ask whether a photograph is there and shows something."""
+    return lambda name: (PICTURES / f"{name}.png").is_file() and report["colours"][name] > 500
+
+
 def build_zip(real: RealBlender, folder: Path) -> Path:
     """Build the zip for a Blender's own Python and return it."""
     script = ROOT / "packaging/build_extension.py"

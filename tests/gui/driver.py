@@ -78,6 +78,38 @@ class Driver:
             self.window.event_simulate(type=kind, value=value, x=x, y=y)
             yield 0.05
 
+    def open_sidebar(self, tab: str):
+        """Show a tab of the 3D Viewport's sidebar."""
+        self.area("VIEW_3D").spaces.active.show_region_ui = True
+        yield 1.0
+        self.region("VIEW_3D", "UI").active_panel_category = tab
+        self.area("VIEW_3D").tag_redraw()
+        yield 1.0
+
+    def scroll(self, area_kind: str, region_kind: str, clicks: int):
+        """Turn the mouse wheel over the middle of a region, down or up if negative."""
+        region = self.region(area_kind, region_kind)
+        x, y = region.x + region.width // 2, region.y + region.height // 2
+        self.window.event_simulate(type="MOUSEMOVE", value="NOTHING", x=x, y=y)
+        yield 0.1
+        for _ in range(abs(clicks)):
+            kind = "WHEELDOWNMOUSE" if clicks > 0 else "WHEELUPMOUSE"
+            self.window.event_simulate(type=kind, value="PRESS", x=x, y=y)
+            yield 0.05
+        yield 0.5
+
+    def choose_last_entry(self, x: int, y: int, picture: str):
+        """Right-click there, photograph the menu, and choose its last entry."""
+        moved = (("MOUSEMOVE", "NOTHING"),) * 2
+        for kind, value in (*moved, ("RIGHTMOUSE", "PRESS"), ("RIGHTMOUSE", "RELEASE")):
+            self.window.event_simulate(type=kind, value=value, x=x, y=y)
+            yield 0.2
+        self.photograph(picture)
+        for key in ("END", "RET"):
+            for value in ("PRESS", "RELEASE"):
+                self.window.event_simulate(type=key, value=value, x=x, y=y)
+                yield 0.2
+
     def photograph(self, name: str) -> np.ndarray:
         """Photograph the screen and return its pixels, (height, width, 3) from the bottom up."""
         file = self.pictures / f"{name}.png"

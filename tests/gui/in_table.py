@@ -16,7 +16,7 @@ MANY = 1000
 
 def looks(driver: Driver, folder: Path):
     """Look at spectra and at the table: none, six rows, dialogs, a thousand rows."""
-    yield from open_sidebar(driver)
+    yield from driver.open_sidebar("RenderToolbox")
     driver.photograph("conditions-none")
     yield from vary_by_click(driver)
     make_recipe(folder, 6, "tracer", samples=8, size=(80, 60))
@@ -70,34 +70,12 @@ def vary_by_click(driver: Driver):
         yield 0.3
     driver.report["searched"] = material.rtb.reflectance
     # The field below the slots, the name and the model.
-    yield from choose_last_entry(driver, panel.x + panel.width - 60, panel.y + panel.height - 241)
+    yield from driver.choose_last_entry(panel.x + panel.width - 60, panel.y + panel.height - 241, "vary-menu")
     yield 0.8
     driver.photograph("varied")
     settings = bpy.context.scene.rtb
     cells = [cell.value for row in settings.conditions for cell in row.cells]
     driver.report["varied"] = [material.rtb.reflectance, [each.name for each in settings.variables], cells]
-
-
-def open_sidebar(driver: Driver):
-    """Show the tab RenderToolbox in the 3D Viewport's sidebar, with only the table open."""
-    driver.area("VIEW_3D").spaces.active.show_region_ui = True
-    yield 1.0
-    driver.region("VIEW_3D", "UI").active_panel_category = "RenderToolbox"
-    driver.area("VIEW_3D").tag_redraw()
-    yield 1.0
-
-
-def choose_last_entry(driver: Driver, x: int, y: int):
-    """Right-click there, photograph the menu, and choose its last entry."""
-    moved = (("MOUSEMOVE", "NOTHING"),) * 2
-    for kind, value in (*moved, ("RIGHTMOUSE", "PRESS"), ("RIGHTMOUSE", "RELEASE")):
-        driver.window.event_simulate(type=kind, value=value, x=x, y=y)
-        yield 0.2
-    driver.photograph("vary-menu")
-    for key in ("END", "RET"):
-        for value in ("PRESS", "RELEASE"):
-            driver.window.event_simulate(type=key, value=value, x=x, y=y)
-            yield 0.2
 
 
 def dialog(driver: Driver, verb, picture: str):

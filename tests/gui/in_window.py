@@ -20,7 +20,7 @@ def experiment(driver: Driver, folder: Path):
     yield from look_at_untagged_panels(driver)
     make_recipe(folder, 6, "tracer", samples=8, size=(80, 60))
     yield from look_at_tagged_panels(driver)
-    yield from open_sidebar(driver)
+    yield from driver.open_sidebar("RenderToolbox")
     driver.photograph("recipe")
     yield from open_image_editor(driver)
     yield from render_by_click(driver)
@@ -51,15 +51,6 @@ def properties(driver: Driver, tab: str, thing: str):
     bpy.context.view_layer.objects.active = bpy.data.objects[thing]
     driver.area("PROPERTIES").spaces.active.context = tab
     yield 0.6
-
-
-def open_sidebar(driver: Driver):
-    """Show the tab RenderToolbox in the 3D Viewport's sidebar."""
-    driver.area("VIEW_3D").spaces.active.show_region_ui = True
-    yield 1.0
-    driver.region("VIEW_3D", "UI").active_panel_category = "RenderToolbox"
-    driver.area("VIEW_3D").tag_redraw()
-    yield 1.0
 
 
 def open_image_editor(driver: Driver):
@@ -117,10 +108,9 @@ def stop_by_key_and_button(driver: Driver):
     yield from until_stopped(driver, "Esc over IMAGE_EDITOR")
     yield from start(driver)
     region = driver.region("VIEW_3D", "UI")
-    montage, export, *_ = driver.button_rows(driver.photograph("before-cancel"), region, from_left=0.3)
-    height = montage[0] - export[0]
-    # Cancel stands at the right end of the bar, which is above Show Montage.
-    yield from driver.click(region.x + 0.83 * region.width, sum(montage) / 2 + 1.3 * height)
+    # Left of their icons, the buttons at the right border: that of the folder, and at the bar's end Cancel.
+    _, cancel, *_ = driver.button_rows(driver.photograph("before-cancel"), region, from_left=0.802)
+    yield from driver.click(region.x + 0.83 * region.width, sum(cancel) / 2)
     yield from until_stopped(driver, "Cancel button")
 
 

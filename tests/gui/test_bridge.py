@@ -2,18 +2,12 @@
 
 import pytest
 
+SCRIPT = "in_bridge.py"
 COLOURS = {
     "material": (0.8, 0.2, 0.1),
     "light": (0.3, 0.9, 0.5),
     "temperature": (1.7708408, 0.8442848, 0.2722227),
 }
-
-
-@pytest.fixture(scope="module")
-def report(blender, tmp_path_factory):
-    """What a Blender without a window found out."""
-    folder = tmp_path_factory.mktemp("bridge")
-    return blender.run_script("in_bridge.py", folder / "report.json", str(folder / "home"), window=False)
 
 
 @pytest.mark.parametrize("space", ["Linear Rec.709", "Linear Rec.2020", "ACEScg"])

@@ -2,12 +2,7 @@
 
 import pytest
 
-
-@pytest.fixture(scope="module")
-def report(blender, tmp_path_factory):
-    """What a Blender without a window found out."""
-    folder = tmp_path_factory.mktemp("background")
-    return blender.run_script("in_background.py", folder / "report.json", str(folder / "home"), window=False)
+SCRIPT = "in_background.py"
 
 
 def test_the_zip_installs_and_is_enabled(report):

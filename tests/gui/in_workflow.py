@@ -1,0 +1,140 @@
+"""Run in a real window: any property varies, is previewed, checked, listed and rendered, photographed."""
+
+import sys
+from pathlib import Path
+
+import bpy
+
+sys.path.insert(0, str(Path(__file__).parent))  # Blender does not look beside its scripts
+from driver import Driver
+from scene import extension, make_recipe
+
+LAMP = "Light"
+
+
+def workflow(driver: Driver, folder: Path):
+    """Vary a location by a right click, preview rows, check, select a culprit, render one row."""
+    make_recipe(folder, 3, "tracer", samples=32, size=(64, 48))
+    yield from driver.open_sidebar("Item")
+    yield from vary_by_click(driver)
+    yield from driver.open_sidebar("RenderToolbox")
+    yield from preview_rows(driver)
+    yield from look_at_mappings(driver)
+    yield from check(driver)
+    yield from render(driver)
+
+
+def vary_by_click(driver: Driver):
+    """Right-click the third component of the lamp's location, and choose Vary in Recipe."""
+    bpy.context.view_layer.objects.active = bpy.data.objects[LAMP]
+    bpy.data.objects[LAMP].select_set(True)
+    yield 0.8
+    driver.photograph("workflow-item")
+    region = driver.region("VIEW_3D", "UI")
+    # Location X, Y, Z stand at the top of the tab, each a button high.
+    x, y = region.x + region.width // 2, region.y + region.height - 103
+    yield from driver.choose_last_entry(x, y, "workflow-vary")
+    yield 0.8
+    settings = bpy.context.scene.rtb
+    driver.report["varied"] = [[each.name, each.value] for each in settings.mappings]
+    driver.report["variables"] = [[each.name, each.kind] for each in settings.variables]
+
+
+def preview_rows(driver: Driver):
+    """Show one row after the other in the viewport."""
+    settings = bpy.context.scene.rtb
+    for number, row in enumerate(settings.conditions):
+        row.cells[1].value = str(3 + number)
+    bpy.ops.rtb.preview_condition(show=True)
+    driver.report["heights"] = []
+    for number in range(3):
+        settings.active_condition = number
+        yield 0.4
+        driver.report["heights"].append(bpy.data.objects[LAMP].location[2])
+    driver.photograph("workflow-preview")
+    bpy.ops.rtb.preview_condition(show=False)
+    driver.report["height afterwards"] = bpy.data.objects[LAMP].location[2]
+
+
+def look_at_mappings(driver: Driver):
+    """Photograph the list of mappings: a good one, a broken one, a written one, and the text."""
+    settings = bpy.context.scene.rtb
+    bpy.ops.rtb.vary_property(home="cameras", thing="Camera", path="lens", index=-1, variable="lens")
+    settings.mappings[1].value = "2 * (lens)"
+    bpy.ops.rtb.vary_property(home="objects", thing="Cube", path="scale", index=0, variable="width")
+    settings.mappings[2].value = "(breadth)"
+    yield from driver.scroll("VIEW_3D", "UI", 40)
+    driver.photograph("workflow-mappings")
+    with bpy.context.temp_override(window=driver.window):
+        bpy.ops.rtb.edit_mappings_text()
+    text = settings.mappings_text
+    blocks = {"Mitsuba": "integrator:maxDepth.integer = 3", "Generic": "Glass-material:intIOR.float = 1.6"}
+    text.from_string("".join(f"{kind} {{\n    {line}\n}}\n" for kind, line in blocks.items()))
+    yield 1.0
+    yield from driver.scroll("VIEW_3D", "UI", 40)
+    driver.photograph("workflow-text")
+    bpy.data.texts.remove(text)
+    driver.area("TEXT_EDITOR").type = "VIEW_3D"
+    yield from driver.scroll("VIEW_3D", "UI", -60)
+
+
+def check(driver: Driver):
+    """Check a recipe with several faults, select one culprit by a click, mend them and check again."""
+    settings = bpy.context.scene.rtb
+    settings.conditions[1].cells[0].value = "BabelColor Average/gren"
+    bpy.data.lights["Light"].rtb.spectrum = "D64"
+    yield from checked(driver)
+    yield 1.5  # panels below one that grows slide a moment later
+    driver.photograph("workflow-check")
+    driver.report["errors"] = list(extension("operators.findings").errors)
+    culprits = extension("operators.findings").culprits
+    driver.report["culprits"] = {sentence: list(each) for sentence, each in culprits.items()}
+    bpy.context.view_layer.objects.active = bpy.data.objects["Cube"]
+    light = next(each for each in culprits.values() if each.kind == "light")
+    with bpy.context.temp_override(window=driver.window):
+        bpy.ops.rtb.select_culprit(kind=light.kind.upper(), name=light.name)
+    driver.report["selected"] = bpy.context.view_layer.objects.active.name
+    settings.conditions[1].cells[0].value = "BabelColor Average/green"
+    bpy.data.lights["Light"].rtb.spectrum = "D65"
+    settings.mappings[2].value = "(width)"
+    yield from checked(driver)
+    driver.photograph("workflow-checked")
+    driver.report["mended"] = list(extension("operators.findings").errors)
+
+
+def checked(driver: Driver):
+    """Check, and wait for what the child says."""
+    with bpy.context.temp_override(window=driver.window):
+        bpy.ops.rtb.check_recipe()
+    while extension("operators.checking").child is not None:
+        yield 0.1
+    yield 0.6
+
+
+def render(driver: Driver):
+    """Render the active condition alone, then all of them, photographed in the middle."""
+    settings, running = bpy.context.scene.rtb, extension("operators.running")
+    settings.active_condition = 1
+    with bpy.context.temp_override(window=driver.window):
+        bpy.ops.rtb.render_condition()
+    while running.batch is not None:
+        yield 0.1
+    cubes = Path(bpy.path.abspath("//rtb/cube/renderings/tracer"))
+    driver.report["rendered alone"] = sorted(each.stem for each in cubes.glob("*.exr"))
+    settings.samples = 2000
+    with bpy.context.temp_override(window=driver.window):
+        bpy.ops.rtb.render_recipe()
+    while running.batch is not None and not running.batch.under_way:
+        yield 0.1
+    yield 0.5
+    driver.photograph("workflow-rendering")
+    driver.report["under way"] = dict(running.batch.under_way) if running.batch is not None else {}
+    running.stop()
+    yield 0.3
+
+
+if __name__ == "__main__":
+    report_file, home, pictures = map(Path, sys.argv[sys.argv.index("--") + 1 :])
+    bpy.context.preferences.view.show_splash = False
+    driver = Driver(report_file, pictures)
+    driver.run(workflow(driver, home))

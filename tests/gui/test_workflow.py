@@ -1,0 +1,50 @@
+"""The workflow in a real window: what varies, is previewed, checked, listed and rendered, photographed."""
+
+import pytest
+
+SCRIPT = "in_workflow.py"
+WINDOW = True
+PANELS = (
+    "workflow-vary",
+    "workflow-preview",
+    "workflow-mappings",
+    "workflow-text",
+    "workflow-check",
+    "workflow-checked",
+    "workflow-rendering",
+)
+
+
+@pytest.mark.parametrize("name", PANELS)
+def test_every_photograph_shows_something(shows, name):
+    assert shows(name)
+
+
+def test_a_right_click_makes_one_component_of_a_location_a_variable(report):
+    assert report["varied"] == [["Location Z of the object Light", "(light_location_z)"]]
+    assert report["variables"] == [["paint", "SPECTRUM"], ["light_location_z", "NUMBER"]]
+
+
+def test_the_preview_follows_the_active_row_and_goes_without_a_trace(report):
+    assert report["heights"] == [3.0, 4.0, 5.0]
+    assert report["height afterwards"] == pytest.approx(5.9038619995)
+
+
+def test_check_finds_everything_at_once_and_knows_what_each_finding_is_about(report):
+    errors, culprits = report["errors"], report["culprits"]
+    assert len(errors) == 3
+    assert {tuple(each) for each in culprits.values()} >= {
+        ("condition", "green"),
+        ("light", "Light"),
+        ("mapping", "2"),
+    }
+    assert report["selected"] == "Light"
+    assert report["mended"] == []
+
+
+def test_one_condition_is_rendered_alone(report):
+    assert report["rendered alone"] == ["green"]
+
+
+def test_conditions_under_way_have_bars_of_their_own(report):
+    assert report["under way"]
