@@ -4,6 +4,7 @@ from bpy.utils import register_classes_factory
 
 from . import call_tooltips, command, image_editor, render_engine, running, watching
 from .add_condition import RTB_OT_add_condition
+from .add_material_preset import RTB_OT_add_material_preset
 from .add_variable import RTB_OT_add_variable
 from .cancel_rendering import RTB_OT_cancel_rendering
 from .check_recipe import RTB_OT_check_recipe
@@ -74,6 +75,7 @@ CLASSES = (
     RTB_OT_use_blackbody,
     RTB_OT_use_colour,
     RTB_OT_use_metal,
+    RTB_OT_add_material_preset,
     RTB_PG_sample,
     RTB_OT_import_spectra,
     RTB_FH_spectra,

@@ -42,6 +42,7 @@ def build(python: str, platform_name: str, output: Path) -> Path:
     with tempfile.TemporaryDirectory(prefix="rtb-extension-") as temporary:
         stage = Path(temporary)
         fill(stage, wheels)
+        make_assets(stage / "assets")
         manifest = extension_manifest(python, platform_name, wheels)
         (stage / "blender_manifest.toml").write_text(manifest)
         version = tomllib.loads(manifest)["version"]
@@ -65,6 +66,20 @@ def fill(stage: Path, wheels: list[Path]) -> None:
     (stage / "wheels").mkdir()
     for wheel in wheels:
         shutil.copy2(wheel, stage / "wheels")
+
+
+def make_assets(folder: Path) -> None:
+    """Write the materials for the Asset Browser, by the bpy wheel or by the Blender in $BLENDER."""
+    script = [str(ROOT / "packaging/make_assets.py"), "--", str(folder)]
+    if importlib.util.find_spec("bpy"):
+        command = [sys.executable, *script]
+    elif blender := find_blender():
+        command = [str(blender), "-b", "--factory-startup", "--python", *script]
+    else:
+        raise SystemExit("the shipped materials need Blender: run `make setup`, or set BLENDER")
+    finished = subprocess.run(command, capture_output=True, text=True, check=False)
+    if finished.returncode or not (folder / "spectral_materials.blend").is_file():
+        raise SystemExit(f"the shipped materials cannot be made:\n{finished.stdout}{finished.stderr}")
 
 
 def extension_manifest(python: str, platform_name: str, wheels: list[Path]) -> str:

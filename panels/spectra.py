@@ -23,12 +23,17 @@ class SpectralPanel:
     def poll(cls, context):
         return getattr(context, cls.thing, None) is not None
 
+    def draw_presets(self, header):
+        """Draw the button of presets, where a panel has some."""
+
     def draw(self, context):
         settings = getattr(context, self.thing).rtb
         header, body = self.layout.panel(self.bl_idname)
         if settings.use_spectra:
             header.prop(settings, "use_spectra", text="")
         header.label(text=self.bl_label)
+        if settings.use_spectra:
+            self.draw_presets(header)
         if body is None:
             return
         if not settings.use_spectra:

@@ -7,6 +7,7 @@ import bpy
 from ..operators.use_metal import RTB_OT_use_metal
 from ..rtb_addon.blender.material_words import is_typed, takes_texture, texture_of, words_of
 from ..rtb_addon.scene.vocabulary import MATERIALS
+from .material_presets import RTB_PT_material_presets
 from .renderer_words import draw_renderers
 from .spectra import SpectralPanel
 from .spectrum_field import draw_spectrum
@@ -19,6 +20,9 @@ class RTB_PT_spectral_material(SpectralPanel, bpy.types.Panel):
     bl_label = "Spectral Material"
     bl_context = "material"
     thing = "material"
+
+    def draw_presets(self, header):
+        RTB_PT_material_presets.draw_panel_header(header)
 
     def draw_spectra(self, layout, context, settings):
         layout.prop(settings, "model")

@@ -37,6 +37,10 @@ class RecordingLayout:
 
     prop_menu_enum = prop
 
+    def popover(self, panel: str, **_) -> None:
+        assert hasattr(bpy.types, panel), f"there is no panel {panel}"
+        self.drawn.append(("popover", panel))
+
     def context_string_set(self, name: str, value: str) -> None:
         self.drawn.append(("context", f"{name}={value}"))
 

@@ -1,0 +1,15 @@
+"""The presets of spectral materials, in the header of their panel."""
+
+import bpy
+from bl_ui.utils import PresetPanel
+
+from ..operators.add_material_preset import FOLDER, RTB_OT_add_material_preset
+
+
+class RTB_PT_material_presets(PresetPanel, bpy.types.Panel):
+    """Materials that you have kept"""
+
+    bl_label = "Spectral Material Presets"
+    preset_subdir = FOLDER
+    preset_operator = "script.execute_preset"
+    preset_add_operator = RTB_OT_add_material_preset.bl_idname
