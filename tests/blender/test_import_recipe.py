@@ -21,7 +21,7 @@ def recipe(library, builder, tmp_path):
     placed = builder.Placement
     scene = builder.SceneBuilder()
     scene.camera("Camera", placement=placed(location=(0, -1, 6), rotation=(10, 0, 0)))
-    scene.orthographic_camera("Flat", width=3.0, placement=placed(location=(0, 0, 5)))
+    scene.camera("Flat", width=3.0, placement=placed(location=(0, 0, 5)))
     scene.point("Lamp", placement=placed(location=(1, 2, 3)))
     scene.spot("Spot", cone=50, blend=0.25, placement=placed(location=(-1, 0, 4), rotation=(0, -15, 0)))
     scene.sun("Sun", placement=placed(rotation=(20, 30, 0)))
