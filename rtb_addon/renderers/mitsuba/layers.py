@@ -164,9 +164,7 @@ def _albedo(seen: _Seen) -> FloatArray:
 
 def _scattered(seen: _Seen, sampler: Any, pixel: Any) -> list[Any]:
     """Return what share of each band one direction of scattering stands for."""
-    tables = seen.tables
-    if tables.parts > 1:
-        tables = tables.for_parts(mi.UInt32(sampler.next_1d() * tables.parts))
+    tables = seen.tables.for_parts(sampler)
     _, si = seen.at(pixel)
     met, bsdf = si.is_valid(), si.bsdf()
     draws = sampler.next_1d(), sampler.next_2d()

@@ -76,10 +76,7 @@ class Picture:
         sampler.seed(tile.seed, lanes)
         pixel = dr.arange(mi.UInt32, lanes) // self.samples
         ray, worth = self._rays.sample(sampler, pixel + dr.opaque(mi.UInt32, tile.first))
-        tables = self._tables
-        if tables.parts > 1:
-            # One number a path is spread evenly over a pixel's samples, and so are the parts of bands.
-            tables = tables.for_parts(mi.UInt32(sampler.next_1d() * tables.parts))
+        tables = self._tables.for_parts(sampler)
         radiance = path_radiance(self._scene, tables, sampler, ray, worth, self._limits)
         return sums_of(radiance[: len(self._native.bands)], pixel, tile.pixels)
 

@@ -110,8 +110,12 @@ class Tables:
         self._sun_narrowness = floats([e.narrowness for e, _ in suns])
         self._sun_directions = floats([np.negative(e.axis) for e, _ in suns])
 
-    def for_parts(self, part) -> Tables:
-        """Return the tables as paths see them that take some part of each band, a mi.UInt32."""
+    def for_parts(self, sampler) -> Tables:
+        """Return the tables as paths see them that take some part of each band, each in its turn."""
+        if self.parts == 1:
+            return self
+        # One number a path is spread evenly over a pixel's samples. Single precision rounds some up to 1.
+        part = dr.minimum(mi.UInt32(sampler.next_1d() * self.parts), self.parts - 1)
         there = copy.copy(self)
         there._part = part
         there.pictures, there.sky = self.pictures.for_parts(part), self.sky.for_parts(part)
