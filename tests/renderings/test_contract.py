@@ -206,8 +206,8 @@ class TestEveryRenderer:
         rows = image.radiance[:, :, 0].astype(float)
         error = np.sqrt((image.standard_error[:, :, 0].astype(float) ** 2).mean(axis=0) / len(rows))
         away = rows.mean(axis=0) - 2 * edge_spread(name)
-        # Eight rows of sixteen rounds each tell their error to a sixteenth, but not where of the 8192 paths of
-        # a column hardly one meets the edge: five may come where none was seen.
+        # Eight rows of sixteen rounds each tell their error to a sixteenth, but not where of the 8192 paths
+        # of a column hardly one meets the edge: five may come where none was seen.
         assert (np.abs(away) <= 4.5 * 1.2 * error + 2 * 5 / 8192).all(), away
         # A tolerance that noise has blown up would prove nothing.
         assert error.max() < 0.02

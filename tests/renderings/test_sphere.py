@@ -7,6 +7,7 @@ from pathlib import Path
 
 import numpy as np
 import pytest
+from scipy import ndimage
 
 from rtb_addon.errors import RecipeError
 from rtb_addon.renderers import find
@@ -99,6 +100,24 @@ def test_renderers_of_triangles_see_the_same_sphere(name, variant, tmp_path):
     assert np.abs(traced - exact)[diffuse].max() < 1e-3 * exact.max()
     highlight = (column - 33) ** 2 + (row - 33) ** 2 < 15**2
     assert abs(traced[highlight].mean() / exact[highlight].mean() - 1) < 0.01
+
+
+def test_difference_pictures_show_the_edge_and_the_highlight_alone(tmp_path):
+    """As in figure 3 of RenderToolbox3's paper, where pixels are no mere points for two of the three."""
+    scene = simple_sphere(rings=200, samples=16)
+    seen = {name: picture(name, scene, tmp_path)[..., 2] for name in ("sphere", "tracer", "mitsuba")}
+    column, row = np.meshgrid(np.arange(201) - 100, 100 - np.arange(201))
+    highlight = (column - 33) ** 2 + (row - 33) ** 2 < 25**2
+    lit, brightest = seen["sphere"] > 0, seen["sphere"].max()
+    edge = ndimage.binary_dilation(lit, iterations=2) & ~ndimage.binary_erosion(lit, iterations=2)
+    for one, other in (("sphere", "tracer"), ("sphere", "mitsuba"), ("tracer", "mitsuba")):
+        away = np.abs(seen[one] - seen[other]) / brightest
+        assert away[~edge & ~highlight].max() < 5e-5
+        # At the edge up to the darkest of what is not the highlight; in it, what it changes within a pixel.
+        assert away.max() < 0.012
+    # Those that average over pixels differ less from each other than from the mere points.
+    closed, sampled = (np.abs(seen[one] - seen["mitsuba"])[edge].sum() for one in ("sphere", "tracer"))
+    assert sampled < 0.5 * closed
 
 
 def test_two_spheres_shade_each_other(tmp_path):

@@ -173,10 +173,11 @@ def _from_camera(scene: RenderScene, draw: Draw, pixels: IntArray) -> tuple[Path
 def _check(radiance: FloatArray, scene: RenderScene) -> None:
     """Raise RenderingError for radiance that cannot be; a filter with negative lobes may make some of it."""
     lowest = -np.inf if FILTERS[scene.film.filter][2] else 0
-    wrong = np.argwhere(~(radiance >= lowest) | ~np.isfinite(radiance))
-    if len(wrong):
-        row, column, band = wrong[0]
-        raise RenderingError(
-            f"the radiance at row {row}, column {column} is {radiance[row, column, band]:g} at"
-            f" {scene.film.bands.centres[band]:g} nm, look for a light too bright or too near"
-        )
+    for row, line in enumerate(radiance):
+        wrong = np.argwhere(~(line >= lowest) | ~np.isfinite(line))
+        if len(wrong):
+            column, band = wrong[0]
+            raise RenderingError(
+                f"the radiance at row {row}, column {column} is {line[column, band]:g} at"
+                f" {scene.film.bands.centres[band]:g} nm, look for a light too bright or too near"
+            )

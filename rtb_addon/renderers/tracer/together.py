@@ -34,15 +34,15 @@ class Together:
     """Paints a native scene in so many processes."""
 
     def __init__(self, scene: Path, processes: int) -> None:
-        self._processes = _started(processes)
+        self.processes = _started(processes)
         with ThreadPoolExecutor(processes) as pool:
-            ready = list(pool.map(lambda one: _asked(one, {"scene": str(scene)}), self._processes))
+            ready = list(pool.map(lambda one: _asked(one, {"scene": str(scene)}), self.processes))
         self.kernel: str = ready[0]["kernel"]
 
     def paint(self, tiles: Sequence[Tile], report: Callable[[float], None]) -> Iterator[FloatArray]:
         """Yield the (pixels, bands) mean radiance of each tile, in their order."""
         idle: queue.SimpleQueue[subprocess.Popen] = queue.SimpleQueue()
-        for one in self._processes:
+        for one in self.processes:
             idle.put(one)
 
         def painted(tile: Tile) -> FloatArray:
@@ -53,7 +53,7 @@ class Together:
                 idle.put(one)
             return np.frombuffer(light, np.float32).reshape(tile.last - tile.first, -1)
 
-        pool = ThreadPoolExecutor(len(self._processes))
+        pool = ThreadPoolExecutor(len(self.processes))
         try:
             for number, radiance in enumerate(pool.map(painted, tiles)):
                 yield radiance
