@@ -79,7 +79,8 @@ def test_memory_beside_the_picture_does_not_grow_with_it(options):
         return peak - pixels * (5 if options.errors else 1)
 
     beside((8, 8))
-    small, large = beside((160, 120)), beside((400, 300))
+    # The small one fills a tile, too.
+    small, large = beside((240, 160)), beside((480, 320))
     assert large < small + 1e6
     assert large < 60e6
 
