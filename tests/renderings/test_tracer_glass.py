@@ -4,13 +4,14 @@ import numpy as np
 import pytest
 
 from rtb_addon.scene.render_scene import Camera, Shape
-from tests.renderings.scattering import direction, met, model_of
+from tests.renderings.scattering import direction, evaluate, met, model_of
 from tests.renderings.tracer_scenes import (
     BANDS,
     BLACK,
     RADIANCE,
     SHAPE_OF_LIGHT,
     SQUARE,
+    assert_within_noise,
     ball,
     facing,
     glass,
@@ -117,3 +118,22 @@ def test_the_noise_of_rough_glass_falls_as_the_root_of_the_samples(tmp_path):
         return picture(lit, tmp_path)[..., 0].std()
 
     assert noise(256) < 1.5 * noise(16) / 4
+
+
+@pytest.mark.parametrize("side", [1, -1])
+def test_a_light_behind_rough_glass_is_as_bright_as_all_its_points_together(tmp_path, side):
+    """The integral over a luminous square below a sheet of glass, by a grid of points of our own."""
+    sheet = Shape("sheet", SQUARE, matrix((0, 0, 0), (1, 0, 0), (0, side, 0), (0, 0, side)), "glass")
+    half, rough = 0.3, glass("roughglass", 0.25)
+    glow = Shape("glow", SQUARE, matrix((0, 0, -1), (half, 0, 0), (0, half, 0)), "black", RADIANCE)
+    x, y = np.meshgrid(*[((np.arange(400) + 0.5) / 200 - 1) * half] * 2)
+    way = np.stack([x, y, np.full_like(x, -1)]).reshape(3, -1)
+    distance = np.linalg.norm(way, axis=0)
+    value, _ = evaluate(model_of(rough), direction(0), way / distance, side)
+    expected = (value[:, 0] / distance**3).sum(dtype=float) * (2 * half / 400) ** 2 * np.array(SHAPE_OF_LIGHT)
+
+    def lit(seed):
+        materials = [rough, matte("black", BLACK)]
+        return scene([sheet, glow], [], materials, looking_down(), samples=1024, seed=seed)
+
+    assert_within_noise(lit, tmp_path, expected)

@@ -19,9 +19,10 @@ from numpy.typing import NDArray
 from ...scene.render_scene import IntArray, Integrator, RenderScene
 from ...spectra import FloatArray
 from .carried import Carrier, Histories, InBands, InHistories, Light
-from .directions import dot
+from .directions import dot, length
 from .intersect import Surfaces, warm_surfaces
 from .kernels import Hits, Kernel
+from .lamps import Sample
 from .lights import Lights
 from .materials import Materials
 from .meeting import Meeting, Model
@@ -185,11 +186,10 @@ def _bring_sampled(
         return
     side = dot(met.places.faces, sample.directions)
     rows = np.nonzero((sample.strength > 0) & ((side > 0) | model.transmits))[0]
-    start, directions = _starts(met, model, side).take(rows, axis=1), sample.directions.take(rows, axis=1)
-    free = np.nonzero(~world.blocked(start, directions, sample.reach.take(rows)))[0]
-    rows, directions = rows.take(free), directions.take(free, axis=1)
+    rows = rows[~world.blocked(*_ways(met, model, sample, side, rows))]
     value, rival = model.evaluate(met, rows, sample.directions)
     strength = sample.strength.take(rows) / (sample.density.take(rows) + sample.extended.take(rows) * rival)
+    directions = sample.directions.take(rows, axis=1)
     light = Light(rows, sample.row.take(rows), directions, value * strength[:, None])
     carrier.bring(paths, light, lambda coming: model.turned(met, rows, coming))
 
@@ -201,6 +201,26 @@ def scattered(paths: Paths, model: Model, met: Meeting, draw: Pair, carrier: Car
     carried, band = carrier.scattered(paths, weight), paths.band if band is None else band
     onward = Paths(paths.number, _starts(met, model, side), directions, None, density, carried, band)
     return onward.only(np.nonzero(((side > 0) | model.transmits) & (density > 0))[0])
+
+
+def _ways(
+    met: Meeting, model: Model, sample: Sample, side: FloatArray, rows: IntArray
+) -> tuple[FloatArray, FloatArray, FloatArray]:
+    """
+    Return where some ways to lights start, their directions, and their lengths [m].
+
+    The sample was seen from above the surface. What goes through starts below, but must not end deeper in the
+    light than what starts above.
+    """
+    start, reach = _starts(met, model, side).take(rows, axis=1), sample.reach.take(rows)
+    directions = sample.directions.take(rows, axis=1)
+    if model.transmits:
+        below = np.nonzero(side.take(rows) < 0)[0]
+        shift = (met.places.start.take(rows, axis=1) - start)[:, below]
+        way = directions[:, below].astype(float) * reach[below] + shift
+        reach[below] = length(way)
+        directions[:, below] = way / reach[below]
+    return start, directions, reach
 
 
 def _starts(met: Meeting, model: Model, side: FloatArray) -> FloatArray:
