@@ -33,6 +33,9 @@ from .one_hot import OneHotScene
 # of one a path. With few triangles neither can be seen.
 _PATHS_PER_TRIANGLE, _MANY_TRIANGLES = 5, 20_000
 
+# What the content of a placed mesh's tree begins with.
+_TREE = "tree "
+
 
 @dataclass(frozen=True, eq=False)
 class LoadedScene:
@@ -79,7 +82,15 @@ class _Kept:
         for content in stale:
             del self.objects[content]
         if stale:
+            self._take_off_paint()
             gc.collect()
+
+    def _take_off_paint(self) -> None:
+        """Have shapes that stay let go of their materials, which are put on again when all are there."""
+        blank = mi.load_dict({"type": "null"})
+        for content, each in self.objects.items():
+            if isinstance(each, mi.Shape) and not content.startswith(_TREE):
+                each.set_bsdf(blank)
 
     def take(self, content: str, make: Callable[[], Any]) -> Any:
         """Return an object, made if it is not there."""
@@ -155,7 +166,7 @@ class _Shape:
     def parts(self) -> list[str]:
         """What tells from others what becomes a part of the scene."""
         placed = f"{self.name} {self.matrix} {self.content}"
-        return [f"tree {self.content}", placed] if self.matrix else [self.content]
+        return [f"{_TREE}{self.content}", placed] if self.matrix else [self.content]
 
 
 def _shape(node: Xml.Element, number: int, paths: int) -> _Shape:

@@ -72,6 +72,9 @@ class Picture:
 
     def _tile(self, tile: Tile) -> FloatArray:
         """Return the (pixels, bands) sums of a tile's samples."""
+        # What is older than the tile becomes a block of its own to drjit, which would else put numbers that
+        # all share elsewhere in the kernel when it has seen them before, and compile another one.
+        dr.detail.new_scope(dr.backend_v(mi.Float))
         sampler, lanes = self._sampler.clone(), tile.pixels * self.samples
         sampler.seed(tile.seed, lanes)
         pixel = dr.arange(mi.UInt32, lanes) // self.samples
