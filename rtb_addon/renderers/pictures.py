@@ -12,6 +12,7 @@ import re
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Any, cast
+from weakref import WeakValueDictionary
 
 import numpy as np
 
@@ -24,6 +25,10 @@ from ..spectra.promotion import EDGES
 # Reflectances of the spectral layout for OpenEXR are T.400,000000nm, radiances S0.400,000000nm.
 _REFLECTANCE = re.compile(r"^T\.")
 _SRGB_END = 0.04045
+# The channel of a colour that a texel holds at each wavelength.
+_COLOURS = (2, 1, 1, 0)
+# Pictures that are in use somewhere: a big one takes seconds to read.
+_in_use: WeakValueDictionary[tuple, Picture] = WeakValueDictionary()
 
 
 @dataclass(frozen=True, eq=False)
@@ -66,8 +71,13 @@ def read_picture(path: Path, gamma: float = 1.0) -> Picture:
     ----------
     gamma : stored numbers are raised to it: 1 takes them as they are, -1 undoes the curve of sRGB
     """
+    status = path.stat() if path.is_file() else None
+    key = path, gamma, status and (status.st_size, status.st_mtime_ns)
+    if (known := _in_use.get(key)) is not None:
+        return known
     found = _read(path, gamma)
-    return found if isinstance(found, Picture) else _coloured(found)
+    _in_use[key] = picture = found if isinstance(found, Picture) else _coloured(found)
+    return picture
 
 
 def read_relief(path: Path, gamma: float = 1.0) -> FloatArray:
@@ -95,9 +105,9 @@ def _read(path: Path, gamma: float) -> Picture | FloatArray:
 def _read_exr(path: Path) -> Picture | FloatArray:
     planes = {_REFLECTANCE.sub("S0.", name): plane for name, plane in read_exr(path)[1].items()}
     if {"R", "G", "B"} <= planes.keys():
-        return np.stack([planes[name] for name in "RGB"], axis=2).astype(float)
+        return np.stack([planes[name] for name in "RGB"], axis=2).astype(np.float32)
     if set(planes) - {"A"} == {"Y"}:
-        return np.stack([planes["Y"]] * 3, axis=2).astype(float)
+        return np.stack([planes["Y"]] * 3, axis=2).astype(np.float32)
     try:
         names, bands = bands_of_channels(planes)
         texels = np.stack([planes[name] for name in names], axis=2).astype(np.float32)
@@ -128,8 +138,9 @@ def _linear(colours: FloatArray, gamma: float) -> FloatArray:
 
 
 def _coloured(colours: FloatArray) -> Picture:
-    red, green, blue = np.moveaxis(np.maximum(colours, 0), 2, 0)
-    texels = np.stack([blue, green, green, red], axis=2).astype(np.float32)
+    texels = np.empty((*colours.shape[:2], len(EDGES)), np.float32)
+    for place, channel in enumerate(_COLOURS):
+        np.maximum(colours[:, :, channel], 0, out=texels[:, :, place], casting="same_kind")
     return Picture(texels, np.array(EDGES), measured=False)
 
 
