@@ -5,11 +5,14 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
+from rtb_addon.exr import write_exr
 from rtb_addon.renderers.mitsuba import llvm, session
-from rtb_addon.scene.render_scene import Material
+from rtb_addon.scene.render_scene import Material, Mesh, Shape, TextureUse
 from rtb_addon.spectra import Spectrum
+from rtb_addon.spectra.channels import channel_name
 from tests.renderings import materials_scene
 from tests.renderings.mitsuba_scenes import BANDS, INTENSITY, REFLECTANCE, lamp, picture, scene
+from tests.renderings.test_mitsuba_textures import SHEET, bitmap
 
 RANDOM = np.random.default_rng(8)
 NUMBERS = [
@@ -17,6 +20,9 @@ NUMBERS = [
     {"metallic": 1.0, "roughness": 0.2, "specular": 0.5},
     {"metallic": 0.35, "roughness": 0.8, "specular": 0.9},
     {"metallic": 0.0, "roughness": 0.05, "specular": 0.0},
+    # Words that only a native scene may have as yet.
+    {"metallic": 0.2, "roughness": 0.4, "anisotropic": 0.7, "flatness": 0.6},
+    {"roughness": 0.4, "sheen": 0.8, "clearcoat": 0.9, "clearcoat_gloss": 0.3},
 ]
 
 
@@ -58,11 +64,12 @@ def test_lobes_add_up_to_the_spectrum_of_stock_mitsuba_for_any_pair_of_direction
 
 
 def of_paint(model, made=(), **parameters):
-    one = scene(environment=lamp("environment", filename=""), samples=2048, depth=4)
+    one = scene(environment=lamp("environment", filename=""), samples=600, depth=2)
     paints = {**{each.id: each for each in made}, "paint": Material("paint", model, parameters)}
     return replace(one, materials={**one.materials, **paints})
 
 
+COLOURS = {390.0: 0.2, 530.0: 0.9, 610.0: 0.5, 730.0: 0.3, 790.0: 0.4}
 PLAIN = {"metallic": 0.0, "roughness": 0.4, "specular": 0.5}
 SHINING = INTENSITY.in_bands(BANDS)
 
@@ -79,6 +86,18 @@ def test_what_a_principled_surface_reflects_is_a_straight_line_in_its_colour(tmp
     share = dark / SHINING
     assert 0.03 < share.min() <= share.max() < 0.06
     np.testing.assert_allclose(share, share[..., :1] + 0 * share, rtol=1e-4)
+
+
+def test_a_picture_as_the_colour_is_as_good_as_a_spectrum(tmp_path):
+    one = of_paint("principled", baseColor=TextureUse("picture"), **PLAIN)
+    planes = {channel_name(nm): np.full((2, 2), value, np.float32) for nm, value in COLOURS.items()}
+    write_exr(tmp_path / "even.exr", {}, planes)
+    one = replace(one, textures={"picture": replace(bitmap(tmp_path / "even.exr"), id="picture")})
+    floor = Shape("Floor", Mesh(50 * SHEET.vertices, SHEET.triangles, None, SHEET.uvs), np.eye(4), "paint")
+    shown = picture(replace(one, shapes=(floor,)), tmp_path).radiance
+    colour = Spectrum.of(list(COLOURS), list(COLOURS.values()))
+    plain = picture(replace(of_paint("principled", baseColor=colour, **PLAIN), shapes=(floor,)), tmp_path)
+    np.testing.assert_allclose(shown, plain.radiance, rtol=1e-4)
 
 
 @pytest.mark.parametrize("other", ["matte", "metal", "mirror"])
