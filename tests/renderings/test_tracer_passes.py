@@ -8,15 +8,17 @@ import numpy as np
 import pytest
 
 from rtb_addon.errors import RenderingError
+from rtb_addon.exr import write_exr
 from rtb_addon.renderers import find
 from rtb_addon.renderers.interface import RenderOptions
 from rtb_addon.renderers.tracer import carried, integrate, passes, together
 from rtb_addon.renderers.tracer.film import offsets
 from rtb_addon.renderers.tracer.intersect import best_kernel
-from rtb_addon.scene.render_scene import Crop, Shape
+from rtb_addon.renderers.tracer.sky import Skies
+from rtb_addon.scene.render_scene import Crop, Light, Shape
 from rtb_addon.spectra import Spectrum
 from tests.renderings.test_tracer import busy_room
-from tests.renderings.tracer_scenes import SQUARE, lamp, looking_down, matrix, matte, scene, sky
+from tests.renderings.tracer_scenes import SQUARE, lamp, looking_down, matrix, matte, per_band, scene, sky
 
 QUIET = RenderOptions()
 
@@ -52,6 +54,20 @@ def test_more_materials_than_the_table_of_histories_has_room_for():
     chart = scene(squares, materials=paints, camera=camera, size=(10, 10), samples=4, environment=sky(2.0))
     rows = (np.arange(100).reshape(10, 10)[::-1] + 1) / 100
     np.testing.assert_allclose(shown(chart), np.repeat(rows[:, :, None], 4, axis=2), rtol=1e-5)
+
+
+def test_a_sky_without_colours_is_a_light_of_one_spectrum(tmp_path, monkeypatch):
+    grey = np.random.default_rng(3).random((8, 16)).astype(np.float32)
+    write_exr(tmp_path / "sky.exr", {}, dict.fromkeys("RGB", grey))
+    picture = {"intensity": per_band([1, 2, 3, 4]), "filename": str(tmp_path / "sky.exr")}
+    environment = Light("sky", "environment", np.eye(4), picture)
+    room = replace(busy_room(samples=16), environment=environment)
+    one = replace(room, shapes=room.shapes[1:3], lights=())
+    assert passes.Alone(one).worlds[0].histories is not None
+    by_history = shown(one)
+    monkeypatch.setattr(Skies, "grey", property(lambda sky: None, lambda sky, spectrum: None))
+    assert not passes.Alone(one).worlds[0].lights.plain
+    np.testing.assert_allclose(by_history, shown(one), rtol=2e-5, atol=1e-6)
 
 
 def test_other_spectra_meet_the_same_triangles_and_moved_shapes_others():

@@ -3,7 +3,7 @@ Where light comes from: every light of a scene in one table, chosen by power and
 
 A light's spectrum, one row of Lights.spectra, is apart from where and how strongly it shines,
 so that paths do not depend on it but for how often each light is chosen. A picture of the sky
-multiplies that row, direction by direction.
+multiplies that row, direction by direction; one without colours changes the strength alone.
 """
 
 from __future__ import annotations
@@ -72,7 +72,9 @@ class Lights:
         groups = self._triangles, self._lamps, self._spheres, self._suns, self._skies
         self._groups: tuple[Group, ...] = groups
         self._environment = scene.environment is not None
-        self.plain = not len(self._skies.rows)
+        self.plain = not len(self._skies.rows) or self._skies.grey is not None
+        if self._skies.grey is not None:
+            self.spectra[-1] *= self._skies.grey
         self._choose()
 
     def sample(self, points: FloatArray, u: FloatArray, v: FloatArray) -> Sample | None:
@@ -115,7 +117,7 @@ class Lights:
     def coming(self, row: IntArray, directions: FloatArray) -> FloatArray:
         """Return the (n, bands) spectra of lights by row, as they come along (3, n) unit directions."""
         light = self.spectra.take(row, axis=0)
-        if len(self._skies.rows):
+        if len(self._skies.rows) and self._skies.grey is None:
             sky = np.nonzero(row == len(self.spectra) - 1)[0]
             light[sky] *= self._skies.radiance(directions.take(sky, axis=1))
         return light
@@ -154,9 +156,13 @@ class Lights:
     def _met_environment(self, rows: IntArray, directions: FloatArray) -> Met:
         # Scattering samples an even environment as well as anything could, so nothing rivals it.
         rival: FloatArray | float = 0.0
+        strength: FloatArray = np.ones(len(rows), np.float32)
         if len(self._skies.rows):
-            rival = self._chance[-1] * self._skies.density(directions.take(rows, axis=1))
-        return Met(rows, np.full(len(rows), len(self.spectra) - 1), np.ones(len(rows)), rival)
+            directions = directions.take(rows, axis=1)
+            rival = self._chance[-1] * self._skies.density(directions)
+            if self._skies.grey is not None:
+                strength = self._skies.brightness(directions)
+        return Met(rows, np.full(len(rows), len(self.spectra) - 1), strength, rival)
 
     def _choose(self) -> None:
         """

@@ -36,7 +36,13 @@ class Skies:
     light : the environment; without a picture there is nothing to look for
     row : the environment's row in Lights.spectra
     radius : of a sphere around the scene [m]
+
+    Attributes
+    ----------
+    grey : the (bands,) spectrum that the whole picture has, up to its brightness; None where it has colours
     """
+
+    grey: FloatArray | None = None
 
     def __init__(self, light: Light | None, film: Film, row: int, radius: float) -> None:
         file = "" if light is None else str(light.parameters.get("filename", ""))
@@ -49,6 +55,8 @@ class Skies:
         self._texels = picture.texels.reshape(-1, channels)
         self._weights = picture.weights(film.bands, film.band_kind).astype(np.float32)
         self._turn = light.to_world[:3, :3] / length(light.to_world[:3, :3])
+        if not np.ptp(self._texels, axis=1).any():
+            self.grey = self._weights.sum(axis=0)
         self._plan()
         self.powers[0] = np.pi * radius**2 * self._whole
 
@@ -56,6 +64,11 @@ class Skies:
         """Return the (n, bands) float32 radiance, per intensity, that comes from unit directions."""
         x, y, _ = self._place(directions)
         return self._mixed(self._texels, x, y) @ self._weights
+
+    def brightness(self, directions: FloatArray) -> FloatArray:
+        """Return (n,) numbers: what comes from unit directions, without the spectrum of a grey picture."""
+        x, y, _ = self._place(directions)
+        return self._mixed(self._texels[:, :1], x, y)[:, 0]
 
     def density(self, directions: FloatArray) -> FloatArray:
         """Return the density [sr-1] with which sample() draws unit directions."""
@@ -70,8 +83,9 @@ class Skies:
         y = row + 0.5 + _tent(v)
         y = np.where(y > self._height, 2 * self._height - y, np.abs(y))
         directions = self._direction((column + 0.5 + _tent(u)) / self._width, y / self._height)
-        ones = np.ones(len(u))
-        return Sample(directions, 1e30 * ones, self.rows[which], ones, self.density(directions), ones)
+        ones = np.ones(len(u), np.float32)
+        strength = ones if self.grey is None else self.brightness(directions)
+        return Sample(directions, 1e30 * ones, self.rows[which], strength, self.density(directions), ones)
 
     def _plan(self) -> None:
         """Fix how often each texel is drawn: by its light, all bands together, and the sky that it fills."""
@@ -96,7 +110,7 @@ class Skies:
 
     def _place(self, directions: FloatArray) -> tuple[FloatArray, FloatArray, FloatArray]:
         """Return where directions are seen, in texels from left and top, and cosines of their elevations."""
-        x, y, z = self._turn.T @ directions
+        x, y, z = (self._turn.T @ directions).astype(np.float32)
         level = np.hypot(x, y)
         u, v = 0.5 - np.arctan2(y, x) / (2 * np.pi), 0.5 - np.arctan2(z, level) / np.pi
         return u * self._width, v * self._height, np.maximum(level, 1e-12)
