@@ -9,7 +9,7 @@ from ..rtb_addon.blender.own_spectra import heard
 from ..rtb_addon.errors import RecipeError
 from .spectrum_verbs import SpectrumVerb
 
-MOST = 40  # rows of a dialog; finer spectra are files
+MOST, ROWS = 40, 16  # samples of a dialog, and of one part of it; finer spectra are files
 
 
 class RTB_PG_sample(bpy.types.PropertyGroup):
@@ -53,7 +53,7 @@ class RTB_OT_use_table(SpectrumVerb, bpy.types.Operator):
             sample = self.samples.add()
             sample.wavelength, sample.value = wavelength, value
         self.count = len(self.samples)
-        return context.window_manager.invoke_props_dialog(self, width=260, confirm_text="Use")
+        return context.window_manager.invoke_props_dialog(self, width=320, confirm_text="Use")
 
     def now(self, context):
         """Return what the field says now, in no more rows than fit."""
@@ -70,10 +70,15 @@ class RTB_OT_use_table(SpectrumVerb, bpy.types.Operator):
     def draw(self, context):
         layout = self.layout
         layout.prop(self, "count")
-        grid = layout.grid_flow(row_major=True, columns=2, even_columns=True, align=True)
-        for sample in self.samples:
-            grid.prop(sample, "wavelength", text="")
-            grid.prop(sample, "value", text="")
+        # Long tables stand in two parts beside each other, so that they fit on a small screen.
+        half = len(self.samples) if len(self.samples) <= ROWS else -(-len(self.samples) // 2)
+        parts = layout.row()
+        for part in (self.samples[:half], self.samples[half:]):
+            column = parts.column(align=True) if part else None
+            for sample in part:
+                row = column.row(align=True)
+                row.prop(sample, "wavelength", text="")
+                row.prop(sample, "value", text="")
 
     def text(self, context, owner):
         rows = sorted((each.wavelength, each.value) for each in self.samples)

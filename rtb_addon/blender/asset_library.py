@@ -14,7 +14,10 @@ def register(folder: Path = FOLDER) -> None:
     """Let the Asset Browser show the materials, where they are."""
     if folder.is_dir() and _found(folder) is None:
         library = _libraries().new(name=NAME, directory=str(folder))
-        library.import_method = "APPEND_REUSE"
+        try:
+            library.import_method = "APPEND_REUSE"
+        except TypeError:  # Blender 5 has no word for taking the same one twice; linked ones cannot be edited
+            library.import_method = "APPEND"
 
 
 def unregister(folder: Path = FOLDER) -> None:

@@ -1,5 +1,8 @@
 """Materials in the words of the vocabulary: their properties, what becomes of them, and what renders."""
 
+import sys
+from types import SimpleNamespace
+
 import bpy
 import numpy as np
 import pytest
@@ -7,6 +10,7 @@ import pytest
 import rtb_addon as rtb
 from rtb_addon.renderers.fidelity import TABLE
 from rtb_addon.scene.vocabulary import MATERIALS
+from tests.blender.stand_in_layout import RecordingLayout
 
 RENDERED = sorted(
     feature.removeprefix("material ")
@@ -210,6 +214,10 @@ def test_conditions_vary_spectra_of_every_parameter(paint, scene, resolved):
 # What renders
 
 
+def in_both(model: str) -> bool:
+    return {"mitsuba", "tracer"} <= set(TABLE.get(f"material {model}", ()))
+
+
 def chart(patch, tmp_path):
     """Yield (material, what a white furnace shows of it, None where that has no closed form)."""
     red = spectral("Red", reflectance="0.25")
@@ -234,9 +242,13 @@ def chart(patch, tmp_path):
     yield spectral("Ward", model="anisoward", reflectance="0.2", alpha_u=0.3), None
     yield spectral("Plastic", model="plastic", reflectance="0.6"), None
     yield spectral("Rough", model="roughplastic", reflectance="0.6"), None
-    for model, said in (("principled", {"base_reflectance": "0.6"}),):
-        if model in RENDERED:
-            yield spectral(model.title(), model=model, **said), None
+    if in_both("principled"):
+        yield spectral("Principled", model="principled", base_reflectance="0.6"), None
+    for relief, pixel, wanted in (("bumpmap", (0.5, 0.5, 0.5), 0.25), ("normalmap", (0.3, 0.5, 0.9), None)):
+        if in_both(relief):
+            tilted = spectral(relief.title(), reflectance="0.25", detail=relief, detail_scale=0.1)
+            tilted.rtb.detail_image = image_of(tmp_path / f"{relief}.png", np.full((2, 2, 3), pixel))
+            yield tilted, wanted
 
 
 def test_every_material_renders_alike_in_both_renderers(scene, patch, library, tmp_path):
@@ -265,3 +277,50 @@ def test_every_material_renders_alike_in_both_renderers(scene, patch, library, t
         for mean, error in zip(means, errors, strict=True):
             if wanted is not None:
                 assert (np.abs(mean[number] - wanted) < 5 * error[number] + 1e-4).all(), material.name
+
+
+# What is said before anything renders
+
+
+@pytest.fixture
+def told(paint, extension, monkeypatch):
+    """Return the lines of In the Renderers, where the table says what a test says."""
+    words = sys.modules[f"{extension}.panels.renderer_words"]
+    fidelity = sys.modules[f"{extension}.rtb_addon.renderers.fidelity"]
+
+    def lines(table):
+        monkeypatch.setattr(fidelity, "TABLE", table)
+        layout = RecordingLayout()
+        context = SimpleNamespace(region=SimpleNamespace(width=600), preferences=bpy.context.preferences)
+        words.draw_renderers(layout, context, paint)
+        return layout.names("label")[1:]
+
+    return lines
+
+
+def test_the_panel_says_what_is_exact_approximate_and_absent(paint, told, library):
+    fidelity = library("renderers.fidelity")
+    paint.model = "roughglass"
+    glass = {"material roughglass": {"mitsuba": fidelity.EXACT, "tracer": fidelity.EXACT}}
+    assert told(glass) == ["Mitsuba: exact", "Tracer: exact"]
+    paint.ior = "Glasses/N-BK7"
+    close = fidelity.Fidelity("approximate", "as at 589.3 nm")
+    table = {**glass, "index spectrum": {"mitsuba": close, "tracer": fidelity.EXACT}}
+    assert told(table) == [
+        "Mitsuba: approximate",
+        "An index that varies with wavelength: approximate, as at 589.3 nm",
+        "Tracer: exact",
+    ]
+    assert told(glass)[:2] == ["Mitsuba: absent", "An index that varies with wavelength is absent"]
+
+
+def test_every_feature_of_a_material_is_asked_for_by_the_tables_words(paint, extension):
+    features = sys.modules[f"{extension}.panels.renderer_words"].features
+    paint.model, paint.detail, paint.opacity = "metal", "normalmap", 0.5
+    paint.distribution = "ggx"
+    assert [feature for feature, _ in features(paint)] == [
+        *("material metal", "distribution ggx", "material normalmap", "material mask")
+    ]
+    paint.model = "plastic"
+    paint.reflectance_texture.kind = "checkerboard"
+    assert "texture checkerboard" in [feature for feature, _ in features(paint)]

@@ -1,0 +1,59 @@
+"""Spectral materials, lamps and worlds in a real window; photographs stay in build/screenshots."""
+
+from pathlib import Path
+
+import pytest
+
+PICTURES = Path(__file__).resolve().parents[2] / "build/screenshots"
+PANELS = (
+    "material-matte",
+    "material-metal",
+    "material-glass",
+    "material-renderers",
+    "library-search",
+    "spectrum-table",
+    "light-watts",
+    "light-lux",
+    "world-constant",
+    "world-image",
+    "assets",
+)
+
+
+@pytest.fixture(scope="module")
+def report(blender, tmp_path_factory):
+    """What was found out in the window."""
+    folder = tmp_path_factory.mktemp("materials")
+    return blender.run_script(
+        "in_materials.py", folder / "report.json", str(folder / "home"), str(PICTURES), window=True
+    )
+
+
+@pytest.mark.parametrize("name", PANELS)
+def test_every_photograph_shows_something(report, name):
+    assert (PICTURES / f"{name}.png").is_file()
+    assert report["colours"][name] > 500
+
+
+def test_the_default_material_is_taken_over_as_matte(report):
+    assert report["promoted"] == "matte"
+
+
+def test_a_panel_of_many_spectra_draws_at_once(report):
+    assert report["a draw"] < 0.005
+
+
+def test_the_lamps_panel_tells_what_its_light_comes_to(report):
+    colour, radiometric, photometric = report["told"]
+    assert colour.startswith("4225 K") or colour.startswith("4224 K")
+    assert radiometric.startswith("Intensity")
+    assert photometric == "= 500 cd"
+
+
+def test_the_installed_zip_brings_its_materials_to_the_asset_browser(report):
+    assert report["asset libraries"] == ["RenderToolbox"]
+    assert report["assets"] > 70
+
+
+def test_a_material_saved_by_blender_4_is_what_it_was(report):
+    assert report["appended"] == ["metal", "Metals/Au gold eta"]
