@@ -25,8 +25,8 @@ def _names(operator, context):
         from ..rtb_addon.spectra.library import names  # brings numpy, which enabling need not wait for
 
         fitting = [name for name in names(own_folders()) if _fits(name, kind)]
-        if kind == "surface":  # illuminants after what reflects
-            fitting.sort(key=lambda name: "/" not in name)
+        if kind in ("surface", "light"):  # what is meant first
+            fitting.sort(key=lambda name: (_is_light(name) != (kind == "light"), name.startswith("Own/")))
         icons = curve_previews.icons(fitting, kind == "light")
         _items[kind] = [
             (name, name.replace("/", " › "), "", icon, number)
@@ -49,6 +49,12 @@ def _fits(name: str, kind: str) -> bool:
     if name.startswith("Glasses/"):
         return kind in ("any", "index")
     return name.startswith("Own/") or kind in ("any", "light", "surface")
+
+
+def _is_light(name: str) -> bool:
+    from ..rtb_addon.spectra.library import is_light
+
+    return not name.startswith("Own/") and is_light(name)
 
 
 class RTB_OT_use_library_spectrum(SpectrumVerb, bpy.types.Operator):

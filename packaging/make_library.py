@@ -7,11 +7,19 @@ with warnings.catch_warnings():
     warnings.simplefilter("ignore")  # it tells which of its own optional packages are missing
     import colour
     from colour.colorimetry import SDS_BASIS_FUNCTIONS_CIE_ILLUMINANT_D_SERIES as DAYLIGHT
+    from colour.colorimetry.datasets.light_sources import sds as lamps
 
 OBSERVER = colour.MSDS_CMFS["CIE 1931 2 Degree Standard Observer"]
 CONES = colour.MSDS_CMFS["Stockman & Sharpe 2 Degree Cone Fundamentals"]
 DATA = Path(__file__).resolve().parents[1] / "rtb_addon" / "data"
-CHECKERS = ("BabelColor Average", "ColorChecker N Ohta", "ISO 17321-1")
+CHECKERS = ("BabelColor Average", "ColorChecker N Ohta", "ISO 17321-1", "PMC")
+LAMPS = {
+    "Pointer Lamps": lamps.SDS_LIGHT_SOURCES_RIT,
+    "NIST Lamps": lamps.SDS_LIGHT_SOURCES_NIST_TRADITIONAL,
+    "NIST LEDs": lamps.SDS_LIGHT_SOURCES_NIST_LED,
+    "Philips Lamps": lamps.SDS_LIGHT_SOURCES_NIST_PHILIPS,
+    "Projectors": lamps.SDS_LIGHT_SOURCES_COMMON,
+}
 ORIGIN = f"# from colour-science {colour.__version__}; see SOURCES.md"
 
 
@@ -38,6 +46,12 @@ def main() -> None:
     each = "name, first wavelength [nm], step [nm], values"
     illuminants = [row(name, spectrum) for name, spectrum in colour.SDS_ILLUMINANTS.items()]
     write("illuminants.csv", f"{each} [relative]", illuminants)
+    sources = [
+        row(f"{group}/{lamp.replace('/', '-')}", spectrum)
+        for group, there in LAMPS.items()
+        for lamp, spectrum in there.items()
+    ]
+    write("lamps.csv", f"{each} [relative]", sources)
     patches = [
         row(f"{checker}/{patch}", spectrum)
         for checker in CHECKERS

@@ -20,7 +20,7 @@ from .files import read_spd
 from .spectrum import Spectrum, Unit
 
 _DATA = Path(__file__).parents[1] / "data"
-_TABLES = {"illuminants.csv": Unit.SHAPE, "color_checkers.csv": Unit.RATIO}
+_TABLES = {"illuminants.csv": Unit.SHAPE, "lamps.csv": Unit.SHAPE, "color_checkers.csv": Unit.RATIO}
 _INDICES = "indices.csv"
 _OLD_METAL = re.compile(r"(\w+)\.(eta|k)\.spd")
 _OLD_PATCH = re.compile(r"mccbabel-(\d+)\.spd")
@@ -32,7 +32,7 @@ OWN = "Own/"
 
 def names(folders: Iterable[Path] = ()) -> list[str]:
     """
-    Return every spectrum's name: illuminants, each checker's patches in the chart's order, indices, own ones.
+    Return every spectrum's name: lights, each checker's patches in the chart's order, indices, own ones.
 
     Metals have two, ``Metals/Cu copper eta`` and ``Metals/Cu copper k``; glasses one, ``Glasses/N-BK7``.
 
@@ -52,6 +52,11 @@ def own_files(folders: Iterable[Path]) -> dict[str, Path]:
     return found
 
 
+def is_light(name: str) -> bool:
+    """Return whether a spectrum of the library, no own one, is a light's and no surface's."""
+    return _all()[name].unit is Unit.SHAPE
+
+
 def metals() -> list[str]:
     """Return the names of the metals, to which `` eta`` and `` k`` are added: ``Metals/Cu copper``."""
     return [name.removesuffix(" eta") for name in _all() if name.endswith(" eta")]
@@ -61,7 +66,7 @@ def find(name: str, folders: Iterable[Path] = ()) -> Spectrum:
     """
     Return a spectrum by its name, in any case of letters.
 
-    Illuminants (``D65``) are relative, as the CIE tabulates them; patches (``BabelColor Average/blue``) are
+    Illuminants (``D65``) and lamps (``NIST Lamps/HPS``) are relative, as tabulated; patches (``BabelColor Average/blue``) are
     reflectances; of metals and glasses there are indices of refraction, and of metals those of extinction.
     """
     key = name.strip().lower()

@@ -19,7 +19,7 @@ with warnings.catch_warnings():
     import colour
 
 ROOT = Path(__file__).resolve().parents[2]
-CHECKERS = ("BabelColor Average", "ColorChecker N Ohta", "ISO 17321-1")
+CHECKERS = ("BabelColor Average", "ColorChecker N Ohta", "ISO 17321-1", "PMC")
 
 
 def same(ours, theirs):
@@ -36,15 +36,26 @@ def test_every_patch_is_the_one_of_colour_science_in_the_charts_order(checker):
     patches = colour.SDS_COLOURCHECKERS[checker]
     assert library.patches(checker) == [f"{checker}/{patch}" for patch in patches]
     assert all(same(library.find(f"{checker}/{patch}"), sd) for patch, sd in patches.items())
-    assert library.find(f"{checker}/blue").unit == Unit.RATIO
+    assert library.find(library.patches(checker)[0]).unit == Unit.RATIO
 
 
 def test_the_library_holds_nothing_twice_and_finds_all_it_names():
     names = library.names()
     assert len(names) == len({name.lower() for name in names})
     indices = [name for name in names if name.startswith(("Metals/", "Glasses/"))]
-    assert len(names) - len(indices) == len(colour.SDS_ILLUMINANTS) + 24 * 3
+    lights = len(colour.SDS_ILLUMINANTS) + len(colour.SDS_LIGHT_SOURCES)
+    assert len(names) - len(indices) == lights + 24 * 3 + 30
     assert all(library.find(name.upper()) is library.find(name) for name in names)
+
+
+def test_every_lamp_of_colour_science_is_there():
+    names = [name for name in library.names() if library.is_light(name)]
+    ours = {name.rpartition("/")[2]: name for name in names}
+    for name, spectrum in colour.SDS_LIGHT_SOURCES.items():
+        found = library.find(ours[name.replace("/", "-")])
+        np.testing.assert_array_equal(found.at(spectrum.wavelengths), spectrum.values)
+    assert library.is_light("D65")
+    assert not library.is_light("PMC/Pork")
 
 
 def test_a_name_that_is_nearly_right_is_suggested():
