@@ -7,6 +7,7 @@ import threading
 from collections.abc import Iterable, Iterator, Mapping
 from concurrent.futures import Future
 from dataclasses import replace
+from importlib import import_module
 from pathlib import Path
 
 from .background import Event
@@ -70,6 +71,7 @@ class _Eye:
         self._ahead.put(file)
 
     def _look(self) -> None:
+        import_module("PIL.Image")  # which the montage needs at once when all is done
         while True:
             file = self._ahead.get()
             try:

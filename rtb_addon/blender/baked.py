@@ -59,6 +59,8 @@ def parent_files(names: Sequence[str], contents: Sequence[bytes]) -> tuple[list[
     Those that are the same share a file; it is called after the first condition that has it, or is the
     recipe's own parent scene when that is the first one of all.
     """
+    if all(content is contents[0] for content in contents):  # a look into a big one takes its time
+        return [PARENT] * len(contents), {}
     cells: dict[bytes, str] = {contents[0]: PARENT}
     files = {}
     for name, content in zip(names, contents, strict=True):
