@@ -73,8 +73,8 @@ class RTB_OT_use_table(SpectrumVerb, bpy.types.Operator):
         # Long tables stand in two parts beside each other, so that they fit on a small screen.
         half = len(self.samples) if len(self.samples) <= ROWS else -(-len(self.samples) // 2)
         parts = layout.row()
-        for part in (self.samples[:half], self.samples[half:]):
-            column = parts.column(align=True) if part else None
+        for part in filter(None, (self.samples[:half], self.samples[half:])):
+            column = parts.column(align=True)
             for sample in part:
                 row = column.row(align=True)
                 row.prop(sample, "wavelength", text="")

@@ -1,8 +1,8 @@
-"""What each renderer makes of a material, in words, before anything is rendered."""
+"""What each renderer makes of a material or world, in words, before anything is rendered."""
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 
 from ..rtb_addon.blender.fields import is_number
 from ..rtb_addon.blender.material_words import CHOICES, MODELS, is_typed, takes_texture, texture_of, words_of
@@ -14,15 +14,21 @@ TEXTURES = {"bitmap": "An image as a texture", "checkerboard": "A checkerboard"}
 RELIEFS = {"bumpmap": "A bump map", "normalmap": "A normal map"}
 
 
-def draw_renderers(layout, context, settings) -> None:
-    """Draw each renderer with what is exact, approximate or absent in it."""
+def draw_renderers(layout, context, used: Sequence[tuple[str, str]]) -> None:
+    """
+    Draw each renderer with what is exact, approximate or absent in it.
+
+    Parameters
+    ----------
+    used : features, as the table of what renderers can calls them, and in words
+    """
     header, body = layout.panel("RTB_PT_in_the_renderers", default_closed=True)
     header.label(text="In the Renderers")
     if body is None:
         return
     for name, label, *_ in RENDERERS:
         column = body.column(align=True)
-        levels = [(words, *_fidelity(name, feature)) for feature, words in features(settings)]
+        levels = [(words, *_fidelity(name, feature)) for feature, words in used]
         absent = [f"{words} is absent" for words, level, _ in levels if level == "absent"]
         weaker = [told(*each) for each in levels if each[1] != "absent" and each[2]]
         column.label(text=f"{label}: {'absent' if absent else 'approximate' if weaker else 'exact'}")

@@ -8,7 +8,7 @@ from ..operators.use_metal import RTB_OT_use_metal
 from ..rtb_addon.blender.material_words import is_typed, takes_texture, texture_of, words_of
 from ..rtb_addon.scene.vocabulary import MATERIALS
 from .material_presets import RTB_PT_material_presets
-from .renderer_words import draw_renderers
+from .renderer_words import draw_renderers, features
 from .spectra import SpectralPanel
 from .spectrum_field import draw_spectrum
 
@@ -37,7 +37,7 @@ class RTB_PT_spectral_material(SpectralPanel, bpy.types.Panel):
             else:
                 layout.prop(settings, own)
         draw_detail(layout, context, settings)
-        draw_renderers(layout, context, settings)
+        draw_renderers(layout, context, list(features(settings)))
 
 
 def draw_detail(layout, context, settings) -> None:

@@ -2,11 +2,17 @@
 
 import bpy
 
+from .renderer_words import draw_renderers
 from .sentences import draw_sentences
 from .spectra import SpectralPanel
 from .spectral_material import draw_image
 from .spectrum_field import draw_spectrum
 
+FEATURES = {
+    "CONSTANT": [("light environment", "Light from everywhere")],
+    "IMAGE": [("light environment picture", "An image all around")],
+    "SUNSKY": [("light sunsky", "Sun and sky")],
+}
 PICTURES = "RGB becomes spectra of three smooth basis colours; bands of an EXR stay as they are"
 
 
@@ -24,7 +30,12 @@ class RTB_PT_spectral_world(SpectralPanel, bpy.types.Panel):
             draw_image(layout, settings, "image")
             layout.prop(settings, "rotation")
             draw_sentences(layout, [PICTURES], context.region.width)
-        draw_spectrum(layout, context, settings, "WORLD")
-        if settings.kind == "CONSTANT":
-            layout.prop(settings, "measure")
-        layout.prop(settings, "amount")
+        if settings.kind == "SUNSKY":
+            for name in ("turbidity", "elevation", "azimuth"):
+                layout.prop(settings, name)
+        else:
+            draw_spectrum(layout, context, settings, "WORLD")
+            if settings.kind == "CONSTANT":
+                layout.prop(settings, "measure")
+            layout.prop(settings, "amount")
+        draw_renderers(layout, context, FEATURES[settings.kind])

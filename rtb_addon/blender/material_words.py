@@ -32,7 +32,7 @@ MODELS = {
 # They go around other materials, as a part of their surface's detail.
 AROUND = ("bumpmap", "normalmap")
 
-_TYPED = (
+TYPED = (
     "a name of the library (D65), daylight 5000, blackbody 3000, pairs like 400:0.2 700:0.8, a number, "
     "a .spd file, or (variable) to take it from the conditions"
 )
@@ -62,12 +62,12 @@ class Words(NamedTuple):
 
 
 WORDS: Mapping[str, Words] = {
-    "diffuseReflectance": Words("reflectance", "Reflectance", f"Reflectance, 0 to 1: {_TYPED}"),
-    "baseColor": Words("base_reflectance", "Base", f"Of the matte or metallic part, 0 to 1: {_TYPED}"),
+    "diffuseReflectance": Words("reflectance", "Reflectance", f"Reflectance, 0 to 1: {TYPED}"),
+    "baseColor": Words("base_reflectance", "Base", f"Of the matte or metallic part, 0 to 1: {TYPED}"),
     "specularReflectance": Words(
-        "specular_reflectance", "Specular", f"Of the gloss or mirror, 0 to 1: {_TYPED}"
+        "specular_reflectance", "Specular", f"Of the gloss or mirror, 0 to 1: {TYPED}"
     ),
-    "specularTransmittance": Words("transmittance", "Transmits", f"Factor of what is let through: {_TYPED}"),
+    "specularTransmittance": Words("transmittance", "Transmits", f"Factor of what is let through: {TYPED}"),
     "eta": Words("eta", "Index n", f"Index {_INDEX}"),
     "k": Words("k", "Index k", "Index of extinction, as the index of refraction"),
     "intIOR": Words("ior", "Index", f"Index inside, {_INDEX}"),

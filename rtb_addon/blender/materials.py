@@ -4,6 +4,9 @@ from __future__ import annotations
 
 from collections.abc import Iterator, Mapping
 from dataclasses import dataclass, field
+from pathlib import Path
+
+import bpy
 
 from ..errors import RecipeError
 from ..scene.vocabulary import MATERIALS
@@ -108,6 +111,8 @@ def _tagged(material, colour: tuple[float, float, float], meter: float) -> Paint
             numbers[name] = _number(value, words_of(name).label, owner)
         elif parameter.kind == "reference":
             parts[name] = _part(value, words_of(name).label, owner)
+        elif name == "filename":
+            words[name] = _measured(material, value, owner)
         else:
             words[name] = Named("string", value)
     relief = _relief(settings, owner, meter)
@@ -176,6 +181,17 @@ def _relief(settings, owner: str, meter: float) -> Relief | None:
         return None
     picture = _bitmap(settings.detail_image, "repeat", owner, raw=True)
     return Relief(settings.detail, picture, settings.detail_scale * meter)
+
+
+def _measured(material, said: str, owner: str) -> Picture:
+    """Return the file that a material was measured in."""
+    if not said:
+        raise RecipeError(f"{owner} needs a file of what was measured, choose one")
+    file = Path(bpy.path.abspath(said, library=material.library))
+    try:
+        return Picture(file.name, file.read_bytes())
+    except OSError as error:
+        raise RecipeError(f"{owner} needs the file {file}, which cannot be read: {error.strerror}") from error
 
 
 def _part(material, label: str, owner: str) -> str:

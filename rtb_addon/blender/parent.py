@@ -119,12 +119,15 @@ class ParentWriter:
         self._say(lamp.statement(made))
 
     def _sky(self, sky: Sky) -> None:
-        """Say what comes from all around; a picture stands in the scene as a lamp that turns with it."""
-        if sky.picture is None:
-            id = self.document.ids.take("World", "-light")
-        else:
+        """Say what comes from all around; what is turned stands in the scene as a lamp that turns with it."""
+        if sky.stands:
             id = self.document.lamp("World", "ambient", (0.0, 0.0, 0.0))
             self.document.use_lamp(self.document.node("World", Placement(rotation=sky.rotation)), id)
+        else:
+            id = self.document.ids.take("World", "-light")
+        if sky.radiance is None:
+            self._say(Statement(id, "World", "light", "sunsky", {}, {"turbidity": sky.turbidity}))
+            return
         words = {} if sky.picture is None else {"filename": sky.picture}
         self._say(Statement(id, "World", "light", "environment", {"intensity": sky.radiance}, {}, words))
 

@@ -2,7 +2,7 @@
 Blender's shaders in the words of the vocabulary, where a material has no spectra of its own.
 
 Principled BSDF: metallic from half on is metal, transmission from half on is glass, a roughness of half or
-more is matte, what is left is plastic. Roughness squared is the width of the slopes, as in Cycles.
+more is matte, what is left is plastic. Roughness squared is the width of its GGX slopes, as in Cycles.
 """
 
 from __future__ import annotations
@@ -97,7 +97,7 @@ def _metal(found, said: Mapping, how: str) -> Promoted:
 def _slopes(said: Mapping) -> dict[str, Any]:
     """Return the roughness of the slopes; nothing for a polished surface."""
     width = said["Roughness"] ** 2
-    return {"roughness": round(width, 4)} if width > 1e-4 else {}
+    return {"roughness": round(width, 4), "distribution": "ggx"} if width > 1e-4 else {}
 
 
 def _index(said: Mapping) -> float:

@@ -7,19 +7,17 @@ from collections.abc import Iterable, Sequence
 
 import bpy
 from bpy.props import (
-    BoolProperty,
     CollectionProperty,
     EnumProperty,
     FloatProperty,
-    FloatVectorProperty,
     IntProperty,
     PointerProperty,
     StringProperty,
 )
 
 from . import table_properties
-from .amounts import MEASURES
 from .conditions import set_conditions
+from .light_properties import RTB_PG_light, RTB_PG_object, RTB_PG_world
 from .material_properties import RTB_PG_material, RTB_PG_texture
 from .table_properties import RTB_PG_condition, RTB_PG_kept, RTB_PG_mapping, RTB_PG_variable
 
@@ -56,12 +54,6 @@ FILLS = (
     ("columns", "Down the Columns", "Conditions go down the columns, as in RenderToolbox3", 1),
     ("rows", "Along the Rows", "Conditions go along the rows, as the patches of a chart", 2),
 )
-EMISSIONS = (
-    ("radiance", "Radiance", "The amount is a factor of a spectrum of radiance, in W / (sr m² nm)", 1),
-    ("watts", "Watts", "The amount is the power in watts that the surface sends out", 2),
-    ("lumens", "Lumens", "The amount is the luminous flux that the surface sends out", 3),
-    ("nits", "cd/m²", "The amount is the luminance, how bright the surface looks", 4),
-)
 SWATCH_LIGHTS = tuple(
     (name, f"{name} ({words})", "", number)
     for number, (name, words) in enumerate(
@@ -77,18 +69,6 @@ SWATCH_LIGHTS = tuple(
         }.items(),
         1,
     )
-)
-SKIES = (
-    ("CONSTANT", "Everywhere", "The same from all directions", 1),
-    ("IMAGE", "Image", "A picture all around, of colours or of spectra (EXR)", 2),
-)
-SKY_MEASURES = (
-    ("RADIANCE", "Radiance", "The amount is a factor of a spectrum of radiance, in W / (sr m² nm)", 1),
-    ("NITS", "cd/m²", "The amount is the luminance, how bright it looks", 2),
-)
-_SPOKEN = (
-    "a name of the library (D65), daylight 5000, blackbody 3000, pairs like 400:0.2 700:0.8, a number, "
-    "a .spd file, or (variable) to take it from the conditions"
 )
 
 
@@ -186,56 +166,6 @@ class RTB_PG_scene(bpy.types.PropertyGroup):
     def set_conditions(self, variables: Sequence[str], rows: Iterable[Sequence[object]]) -> None:
         """Replace the table of conditions by rows of cells, one cell for each variable."""
         set_conditions(self.id_data, variables, rows)
-
-
-class RTB_PG_light(bpy.types.PropertyGroup):
-    """What light a lamp sends out, and how much: Blender's power, or as people measure light."""
-
-    use_spectra: BoolProperty(
-        name="Use Spectra", description="Shine as said here instead of in the colour", default=False
-    )
-    spectrum: StringProperty(
-        name="Spectrum", description=f"Shape of the spectrum, scaled to the power: {_SPOKEN}", default="D65"
-    )
-    measure: EnumProperty(name="Amount As", items=MEASURES, default="WATTS")
-    amount: FloatProperty(
-        name="Amount",
-        description="In the unit beside it; Blender's own power then counts no more",
-        default=100.0,
-        min=0.0,
-    )
-    distance: FloatProperty(
-        name="At Distance", description="Where the illuminance is", default=1.0, min=0.0, unit="LENGTH"
-    )
-
-
-class RTB_PG_world(bpy.types.PropertyGroup):
-    """What light comes from all around."""
-
-    use_spectra: BoolProperty(name="Use Spectra", description="Let the world shine", default=False)
-    kind: EnumProperty(name="Light From", items=SKIES, default="CONSTANT")
-    spectrum: StringProperty(
-        name="Spectrum", description=f"Radiance, in W / (sr m² nm): {_SPOKEN}", default="1"
-    )
-    measure: EnumProperty(name="Amount As", items=SKY_MEASURES, default="RADIANCE")
-    amount: FloatProperty(name="Amount", description="Factor of the spectrum", default=1.0, min=0.0)
-    image: PointerProperty(
-        type=bpy.types.Image,
-        name="Image",
-        description="Equirectangular, as Blender's: its middle lies ahead of +X",
-    )
-    rotation: FloatVectorProperty(
-        name="Rotation", description="Of the image, around X, Y and Z", size=3, subtype="EULER"
-    )
-
-
-class RTB_PG_object(bpy.types.PropertyGroup):
-    """What light a mesh sends out, from the side of its normals."""
-
-    emits: BoolProperty(name="Emits", description="Let this surface shine", default=False)
-    spectrum: StringProperty(name="Spectrum", description=f"What it sends out: {_SPOKEN}", default="D65")
-    emission: EnumProperty(name="Measured As", items=EMISSIONS, default="radiance")
-    amount: FloatProperty(name="Amount", default=1.0, min=0.0)
 
 
 _CLASSES = (

@@ -73,7 +73,7 @@ class Named(NamedTuple):
 @dataclass(frozen=True)
 class Picture:
     """
-    A picture that becomes a file of the recipe.
+    A picture, or what else was measured, that becomes a file of the recipe.
 
     Parameters
     ----------

@@ -21,14 +21,21 @@ class Sky:
 
     Parameters
     ----------
-    radiance : of every direction, or what a picture is multiplied by
+    radiance : of every direction, or what a picture is multiplied by; None for sun and sky
     picture : an equirectangular one, as Blender's; None where all directions are alike
-    rotation : of the picture around X, then Y, then Z [degrees]
+    rotation : of the picture around X, then Y, then Z [degrees]; it brings +Z to the sun
+    turbidity : of the air below sun and sky
     """
 
-    radiance: Spoken
+    radiance: Spoken | None
     picture: Picture | None = None
     rotation: tuple[float, float, float] = (0.0, 0.0, 0.0)
+    turbidity: float = 3.0
+
+    @property
+    def stands(self) -> bool:
+        """Whether it is turned some way, and so has a place in the parent scene."""
+        return self.picture is not None or self.radiance is None
 
 
 def read_world(world) -> tuple[Sky | None, tuple[str, ...]]:
@@ -44,6 +51,10 @@ def read_world(world) -> tuple[Sky | None, tuple[str, ...]]:
 
 
 def _tagged(world, settings, owner: str) -> Sky:
+    if settings.kind == "SUNSKY":
+        from_zenith = 90 - math.degrees(settings.elevation)
+        turned = (0.0, from_zenith, math.degrees(settings.azimuth))
+        return Sky(None, rotation=turned, turbidity=settings.turbidity)
     text = typed(settings.spectrum, world)
     if settings.measure == "NITS":
         radiance = Spoken(text, owner, Unit.RADIANCE, 1.0, lumens=settings.amount)

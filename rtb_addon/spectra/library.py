@@ -66,8 +66,9 @@ def find(name: str, folders: Iterable[Path] = ()) -> Spectrum:
     """
     Return a spectrum by its name, in any case of letters.
 
-    Illuminants (``D65``) and lamps (``NIST Lamps/HPS``) are relative, as tabulated; patches (``BabelColor Average/blue``) are
-    reflectances; of metals and glasses there are indices of refraction, and of metals those of extinction.
+    Illuminants (``D65``) and lamps (``NIST Lamps/HPS``) are relative, as tabulated; patches
+    (``BabelColor Average/blue``) are reflectances; of metals and glasses there are indices of refraction,
+    and of metals those of extinction.
     """
     key = name.strip().lower()
     own = own_files(folders) if key.startswith(OWN.lower()) else {}

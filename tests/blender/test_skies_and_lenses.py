@@ -99,6 +99,22 @@ def test_a_turned_sky_is_written_as_blenders_rotation(scene, sky, resolved, put,
     assert found.parameters["filename"].endswith("sky.exr")
 
 
+def test_the_sun_stands_where_its_elevation_and_azimuth_say(scene, lamp, resolved):
+    lamp()
+    world = scene.world = bpy.data.worlds.new("Sky")
+    settings = world.rtb
+    settings.use_spectra, settings.kind, settings.turbidity = True, "SUNSKY", 4.5
+    settings.elevation, settings.azimuth = math.radians(30), math.radians(20)
+    found = resolved(scene).environment
+    assert (found.kind, found.parameters["turbidity"]) == ("sunsky", 4.5)
+    towards = (
+        math.cos(math.radians(30)) * math.cos(math.radians(20)),
+        math.cos(math.radians(30)) * math.sin(math.radians(20)),
+        0.5,
+    )
+    np.testing.assert_allclose(found.to_world[:3, 2], towards, atol=1e-6)
+
+
 def test_an_image_that_is_missing_is_said(scene, sky, lamp, read):
     lamp()
     sky.rtb.use_spectra, sky.rtb.kind = True, "IMAGE"

@@ -103,6 +103,31 @@ def test_what_files_from_before_hold_means_the_same(paint):
     assert group["model"].enum_items["matte"].value == 1
 
 
+def test_a_material_that_an_earlier_version_saved_keeps_its_values(scene, box):
+    box()
+    material = bpy.data.materials["Paint"]
+    # As such a file holds them, which had these three properties.
+    material["rtb"] = {"use_spectra": 1, "model": 1, "reflectance": "BabelColor Average/blue"}
+    settings = material.rtb
+    assert (settings.use_spectra, settings.model) == (True, "matte")
+    assert settings.reflectance == "BabelColor Average/blue"
+    assert settings.opacity == 1.0
+
+
+def test_numbers_of_a_material_vary_like_any_property(paint, scene, resolved, library):
+    paint.model, paint.roughness = "metal", 0.2
+    with bpy.context.temp_override(object=bpy.data.objects["Box"]):
+        bpy.ops.rtb.vary_property(home="materials", thing="Paint", path="rtb.roughness", variable="rough")
+    scene.rtb.conditions[0].name = "smooth"
+    bpy.ops.rtb.add_condition()
+    scene.rtb.conditions[-1].name = "coarse"
+    scene.rtb.conditions[-1].cells[0].value = "0.5"
+    for condition, wanted in (("smooth", 0.2), ("coarse", 0.5)):
+        found = resolved(scene, condition).materials["Paint-material"].parameters["roughness"]
+        assert found == pytest.approx(wanted, rel=1e-6)
+    assert paint.roughness == pytest.approx(0.2)
+
+
 def test_everything_survives_undo_appending_and_saving(paint, tmp_path):
     other = spectral("Other")
     paint.model, paint.part, paint.weight = "blend", other, 0.25
@@ -181,6 +206,20 @@ def test_detail_goes_around_a_surface(paint, scene, resolved, tmp_path):
     assert (mask.model, bump.model, matte.model) == ("mask", "bumpmap", "matte")
     assert bump.parameters["scale"] == pytest.approx(0.002), "metres"
     assert found.textures[bump.parameters["textureID"]].parameters["filename"].endswith("heights.png")
+
+
+def test_what_was_measured_goes_along_as_a_file(paint, scene, read, resolved, tmp_path):
+    paint.model = "measured"
+    with pytest.raises(Exception, match="material Paint needs a file of what was measured, choose one"):
+        read(scene)
+    (tmp_path / "satin.bsdf").write_bytes(b"tensor_file")
+    paint.file = str(tmp_path / "satin.bsdf")
+    assert read(scene).resources["satin.bsdf"] == b"tensor_file"
+    found = resolved(scene).materials["Paint-material"]
+    assert found.parameters["filename"].endswith("resources/satin.bsdf")
+    paint.file = str(tmp_path / "gone.bsdf")
+    with pytest.raises(Exception, match=r"gone\.bsdf, which cannot be read"):
+        read(scene)
 
 
 def test_images_that_are_in_no_file_are_refused_and_packed_ones_are_written(paint, scene, read, tmp_path):
@@ -292,7 +331,7 @@ def told(paint, extension, monkeypatch):
         monkeypatch.setattr(fidelity, "TABLE", table)
         layout = RecordingLayout()
         context = SimpleNamespace(region=SimpleNamespace(width=600), preferences=bpy.context.preferences)
-        words.draw_renderers(layout, context, paint)
+        words.draw_renderers(layout, context, list(words.features(paint)))
         return layout.names("label")[1:]
 
     return lines
