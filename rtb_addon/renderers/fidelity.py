@@ -48,6 +48,7 @@ TABLE: Mapping[str, Mapping[str, Fidelity]] = {
     "material measured": {"mitsuba": _AT_MIDDLES},
     "material bumpmap": {"mitsuba": EXACT, "tracer": EXACT},
     "material normalmap": {"mitsuba": EXACT, "tracer": EXACT},
+    "material fluorescent": {"tracer": EXACT},
     "light point": {"mitsuba": EXACT, "tracer": EXACT, "sphere": EXACT},
     "light spot": {"mitsuba": EXACT, "tracer": EXACT},
     "light directional": {"mitsuba": EXACT, "tracer": EXACT},

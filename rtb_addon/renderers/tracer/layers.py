@@ -62,7 +62,8 @@ def _seen(alone: Alone, names: Sequence[str], report: Report) -> dict[str, NDArr
         numbers = numbers_of(scene, np.arange(first, min(first + step, pixels)))
         planes = _met(scene, alone.worlds[0], numbers, uvs)
         if "albedo" in names:
-            planes["albedo"] = np.mean([_albedo(scene, one, numbers) for one in alone.worlds], axis=0)
+            shares = [_albedo(scene, one, numbers)[:, alone.seen] for one in alone.worlds]
+            planes["albedo"] = np.mean(shares, axis=0)
         for name, plane in planes.items():
             found.setdefault(name, []).append(plane)
     report(1.0)

@@ -16,6 +16,7 @@ from numpy.typing import NDArray
 from ...scene.render_scene import Film, IntArray, Material, Texture, TextureUse, Value
 from ...spectra import Spectrum
 from .dispersion import DispersingGlass, DispersingRoughGlass, DispersingThinGlass
+from .fluorescence import Fluorescent
 from .glass import Glass, ThinGlass
 from .matte import Matte
 from .meeting import Model
@@ -44,6 +45,7 @@ KINDS: dict[str, Callable[[Sequence[Material], Palette], Model]] = {
     "dispersing glass": DispersingGlass,
     "dispersing thinglass": DispersingThinGlass,
     "dispersing roughglass": DispersingRoughGlass,
+    "fluorescent": Fluorescent,
     "nothing": Nothing,
 }
 _SMOOTH = {"metal": "smooth metal", "roughplastic": "plastic", "roughglass": "glass"}

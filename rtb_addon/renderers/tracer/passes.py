@@ -22,6 +22,7 @@ from ..rounds import Progress, Rounds, rounds_of
 from .camera import rays
 from .carried import Carrier
 from .film import offsets
+from .fluorescence import widened
 from .integrate import FILM, LENS, Draw, World, follow, pairs_needed
 from .intersect import around_zero, best_kernel
 from .kernels import Kernel
@@ -98,11 +99,18 @@ def _tiles(pixels: int, samples: int, number: int) -> Iterator[Tile]:
 
 
 class Alone:
-    """Paints in this process: a scene's worlds, one for each part of the bands that its paths may see."""
+    """
+    Paints in this process: a scene's worlds, one for each part of the bands that its paths may see.
+
+    Attributes
+    ----------
+    seen : which bands of the worlds are the film's; others excite what is fluorescent
+    """
 
     def __init__(self, scene: RenderScene, make: Callable[[FloatArray], Kernel] = best_kernel) -> None:
         self.scene = scene = around_zero(scene)
-        self.worlds = [World.of(one, make) for one in _in_parts(scene)]
+        wide, self.seen = widened(scene)
+        self.worlds = [World.of(one, make) for one in _in_parts(wide)]
         self.kernel = self.worlds[0].surfaces.kernel.name
 
     def paint(self, tiles: Sequence[Tile], report: Callable[[float], None]) -> Iterator[FloatArray]:
@@ -132,7 +140,7 @@ class Alone:
                     self._wave(world, carrier, Draw(sampler, pixel.take(wave), sample.take(wave)), pixels)
                     done += len(wave)
                     report(done / len(pixel))
-                total += carrier.sums()
+                total += carrier.sums()[:, self.seen]
         return total / np.float32(samples)
 
     def _wave(self, world: World, carrier: Carrier, draw: Draw, pixels: IntArray) -> None:
