@@ -77,6 +77,7 @@ def render_recipe(
                 journal.note(stamped := journal.stamped(event))
                 yield stamped
         finally:
+            sweep(recipe.folder / SCRATCH)  # of what workers that died had begun
             with suppress(OSError):  # where another disk holds the cubes, it lies there
                 (recipe.folder / SCRATCH).rmdir()
 

@@ -238,6 +238,21 @@ def test_a_batch_survives_a_worker_that_dies_once(write_family):
     assert rendered(recipe) == {"a": "done", "once": "done", "b": "done", "c": "done"}
 
 
+def test_the_next_condition_begins_while_the_last_one_is_saved(write_family):
+    recipe = write_family({"a": "0.5", "b": "0.6"})
+    events = [(event.kind, event.condition) for event in render_recipe(recipe.folder, jobs=1)]
+    assert events.index(("started", "b")) < events.index(("done", "a"))
+
+
+def test_a_condition_that_was_only_to_be_saved_is_innocent_of_its_workers_death(write_family):
+    recipe = write_family({"a": "0.5", "dies": "0.6", "b": "0.7"}, width=800, height=600)
+    events = list(render_recipe(recipe.folder, jobs=1))
+    ends = {event.condition: event.kind for event in events if event.kind in {"done", "failed"}}
+    assert ends == {"a": "done", "dies": "failed", "b": "done"}
+    assert {event.condition for event in events if "worker died" in event.message} == {"dies"}
+    assert not temporaries(recipe.folder)
+
+
 def test_a_condition_whose_worker_dies_twice_fails_with_its_last_words(write_family):
     recipe = write_family({"a": "0.5", "dies": "0.6", "b": "0.7"})
     event = failure(recipe, "dies")
