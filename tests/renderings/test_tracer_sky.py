@@ -218,7 +218,7 @@ def test_directions_are_drawn_with_the_density_that_is_said(tmp_path, shape):
     level, turn = np.meshgrid(np.cos(elevation), turn, indexing="ij")
     z = np.sin(elevation)[:, None] * np.ones_like(turn)
     ways = light.to_world[:3, :3] @ np.stack([level * np.cos(turn), level * np.sin(turn), z]).reshape(3, -1)
-    drawn_there = skies.density(ways).reshape(len(angle), -1) * angle[:, None] * n
+    drawn_there = skies.seen(ways)[1].reshape(len(angle), -1) * angle[:, None] * n
     expected = drawn_there.reshape(rows, 200, columns, 20).sum(axis=(1, 3)).ravel()
     assert expected.sum() == pytest.approx(n, rel=2e-3)
     seen = np.bincount(cell, minlength=rows * columns)

@@ -5,7 +5,7 @@ import pytest
 from hypothesis import assume, given
 from hypothesis import strategies as st
 
-from rtb_addon.spectra import DEFAULT_BANDS, FULL_RANGE, Bands, Spectrum, Unit
+from rtb_addon.spectra import DEFAULT_BANDS, FULL_RANGE, Bands, Part, Spectrum, Unit
 
 JAGGED = Spectrum.of([411, 413.5, 520, 520.25, 640], [0.1, 3, 0.4, 2, 1])
 UNEVEN = Bands(np.array([400, 412, 500, 700.0]), np.array([390, 411.5, 414, 600, 730.0]))
@@ -28,6 +28,14 @@ def test_a_bands_value_is_the_exact_average_of_the_straight_lines(bands):
 def test_the_averages_of_a_slope_are_its_values_at_the_centres():
     slope = Spectrum.of([300, 900], [0, 6])
     np.testing.assert_allclose(slope.in_bands(DEFAULT_BANDS), slope.at(DEFAULT_BANDS.centres), rtol=1e-14)
+
+
+def test_the_parts_of_a_band_average_to_the_band():
+    bands = Bands.around([400, 433.3, 500, 610])
+    parts = [JAGGED.in_bands(bands, Part(number, 4)) for number in range(4)]
+    np.testing.assert_allclose(np.mean(parts, axis=0), JAGGED.in_bands(bands), rtol=1e-12)
+    quarter = bands.edges[0] + bands.widths[0] * np.array([0.25, 0.5])
+    assert parts[1][0] == pytest.approx(JAGGED.integral(*quarter) / np.diff(quarter)[0], rel=1e-12)
 
 
 def test_a_triangle_inside_one_band_keeps_its_area():

@@ -158,10 +158,8 @@ class Lights:
         rival: FloatArray | float = 0.0
         strength: FloatArray = np.ones(len(rows), np.float32)
         if len(self._skies.rows):
-            directions = directions.take(rows, axis=1)
-            rival = self._chance[-1] * self._skies.density(directions)
-            if self._skies.grey is not None:
-                strength = self._skies.brightness(directions)
+            strength, density = self._skies.seen(directions.take(rows, axis=1))
+            rival = self._chance[-1] * density
         return Met(rows, np.full(len(rows), len(self.spectra) - 1), strength, rival)
 
     def _choose(self) -> None:

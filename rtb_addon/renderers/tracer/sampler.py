@@ -61,7 +61,7 @@ class Sampler:
         return u * 2.0**-32, v * 2.0**-32
 
 
-@lru_cache(maxsize=256)
+@lru_cache(maxsize=64)
 def _use(samples: int, seed: int, number: int, use: int) -> tuple[NDArray[np.uint32], NDArray[np.uint64]]:
     """Return the (2, samples) points of one use in a round, as fractions of 2**32, and (2, 1) keys."""
     random = np.random.Generator(np.random.Philox(np.random.SeedSequence([seed, number, use])))

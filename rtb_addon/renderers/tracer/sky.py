@@ -65,15 +65,18 @@ class Skies:
         x, y, _ = self._place(directions)
         return self._mixed(self._texels, x, y) @ self._weights
 
-    def brightness(self, directions: FloatArray) -> FloatArray:
-        """Return (n,) numbers: what comes from unit directions, without the spectrum of a grey picture."""
-        x, y, _ = self._place(directions)
-        return self._mixed(self._texels[:, :1], x, y)[:, 0]
+    def seen(self, directions: FloatArray) -> tuple[FloatArray, FloatArray]:
+        """
+        Return what (3, n) unit directions show, two arrays of n.
 
-    def density(self, directions: FloatArray) -> FloatArray:
-        """Return the density [sr-1] with which sample() draws unit directions."""
+        Returns
+        -------
+        brightness : of a grey picture, without its spectrum; 1 of one with colours
+        density : with which sample() draws these directions [sr-1]
+        """
         x, y, cosine = self._place(directions)
-        return self._mixed(self._tents, x, y)[:, 0] / cosine
+        brightness, tents = self._mixed(self._planned, x, y).T
+        return brightness, tents / cosine
 
     def sample(self, which: IntArray, points: FloatArray, u: FloatArray, v: FloatArray) -> Sample:
         """Draw a row, then a texel of that row, then a place in its tent."""
@@ -83,9 +86,8 @@ class Skies:
         y = row + 0.5 + _tent(v)
         y = np.where(y > self._height, 2 * self._height - y, np.abs(y))
         directions = self._direction((column + 0.5 + _tent(u)) / self._width, y / self._height)
-        ones = np.ones(len(u), np.float32)
-        strength = ones if self.grey is None else self.brightness(directions)
-        return Sample(directions, 1e30 * ones, self.rows[which], strength, self.density(directions), ones)
+        ones, (strength, density) = np.ones(len(u), np.float32), self.seen(directions)
+        return Sample(directions, 1e30 * ones, self.rows[which], strength, density, ones)
 
     def _plan(self) -> None:
         """Fix how often each texel is drawn: by its light, all bands together, and the sky that it fills."""
@@ -99,7 +101,8 @@ class Skies:
         self._rows, self._columns = _Chances(light.sum(axis=1)[None]), _Chances(light)
         # What is drawn per texel, per its share of the angle without the cosine.
         share = light / light.sum() * (self._height * self._width) / (2 * np.pi**2)
-        self._tents = share.reshape(-1, 1)
+        bright = np.ones(light.size) if self.grey is None else self._texels[:, 0]
+        self._planned = np.stack([bright, share.ravel()], axis=1).astype(np.float32)
 
     def _mixed(self, texels: FloatArray, x: FloatArray, y: FloatArray) -> FloatArray:
         """Return the texels around each place, mixed."""
