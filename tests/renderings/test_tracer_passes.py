@@ -11,7 +11,7 @@ from rtb_addon.errors import RenderingError
 from rtb_addon.exr import write_exr
 from rtb_addon.renderers import find
 from rtb_addon.renderers.interface import RenderOptions
-from rtb_addon.renderers.tracer import carried, integrate, passes, together
+from rtb_addon.renderers.tracer import carried, histories, integrate, passes, together
 from rtb_addon.renderers.tracer.film import offsets
 from rtb_addon.renderers.tracer.intersect import best_kernel
 from rtb_addon.renderers.tracer.sky import Skies
@@ -39,7 +39,7 @@ def test_histories_and_bands_make_the_same_picture(monkeypatch):
 def test_many_histories_are_summed_as_a_few_are(monkeypatch):
     room = busy_room(samples=16)
     expected = shown(room)
-    monkeypatch.setattr(carried, "_DENSE", 0)
+    monkeypatch.setattr(histories, "_DENSE", 0)
     np.testing.assert_allclose(shown(room), expected, rtol=1e-5)
 
 

@@ -18,8 +18,9 @@ from numpy.typing import NDArray
 
 from ...scene.render_scene import IntArray, Integrator, RenderScene
 from ...spectra import FloatArray
-from .carried import Carrier, Histories, InBands, InHistories, Light
+from .carried import Carrier, InBands, Light
 from .directions import dot, length
+from .histories import Histories, InHistories
 from .intersect import Surfaces, warm_surfaces
 from .kernels import Hits, Kernel
 from .lamps import Sample
