@@ -61,11 +61,13 @@ def through(apex, incidence, n):
     return incidence + leaving - apex, shares[0] * shares[1]
 
 
-def test_a_prism_turns_each_band_as_snell_says(tmp_path):
+@pytest.mark.parametrize("kind", ["averaged", "mean"])
+def test_a_prism_turns_each_band_as_snell_says(tmp_path, kind):
     """
     A ray along X meets the left side of a prism; behind it a sky whose radiance tells the direction.
 
-    In each band the sky is as bright as its columns are far from -X, so that what is seen is the angle.
+    In each band the sky is as bright as its columns are far from -X, so that what is seen is the angle. Of
+    true means both halves of a band, that have two indices, are turned by themselves.
     """
     apex, height, columns = np.radians(40), 0.5, 720
     texels = np.zeros((2, columns, len(BANDS)))
@@ -77,16 +79,28 @@ def test_a_prism_turns_each_band_as_snell_says(tmp_path):
     parameters = {"intensity": Spectrum.constant(1.0, Unit.RADIANCE), "filename": str(tmp_path / "sky.exr")}
     around = Light("sky", "environment", np.eye(4), parameters)
     camera = Camera("c", "orthographic", facing((-3, height, 0), (0, height, 0)), (-1e-4, 1e-4, -1e-4, 1e-4))
-    shape = Shape("prism", prism(apex), matrix(), "glass")
+    shape, bands = Shape("prism", prism(apex), matrix(), "glass"), BANDS.centres
+    # Steps in the middle of each band: half of it is turned by this index, half by the next.
+    steps = [nm + side for nm in bands for side in (-1e-9, 1e-9)]
+    halves = [1.75, *np.repeat([1.6, 1.5, 1.4], 2), 1.3]
+    stepped = replace(glass(), parameters={**glass().parameters, "intIOR": Spectrum.of(steps, halves)})
+    material = dispersing() if kind == "averaged" else stepped
 
     def seen(seed):
         # Two surfaces, then the sky: what goes back and forth inside is longer.
-        return scene([shape], [], [dispersing()], camera, 3, 2048, seed=seed, environment=around)
+        one = scene([shape], [], [material], camera, 3, 2048, seed=seed, environment=around)
+        return replace(one, film=replace(one.film, band_kind=kind))
 
-    # The side leans by half the apex from the vertical; the base lies below, so light is turned down.
-    turned = [through(apex, apex / 2, n) for n in INDICES]
-    expected = np.array([(np.pi + angle) * share for angle, share in turned])
-    assert np.ptp([np.degrees(angle) for angle, _ in turned]) > 12
+    def shown(n):
+        # The side leans by half the apex from the vertical; the base lies below, so light is turned down.
+        angle, share = through(apex, apex / 2, n)
+        return (np.pi + angle) * share
+
+    expected = np.array([shown(n) for n in INDICES])
+    if kind == "mean":
+        both = zip(halves[::2], halves[1::2], strict=True)
+        expected = np.array([(shown(one) + shown(two)) / 2 for one, two in both])
+    assert np.ptp([np.degrees(through(apex, apex / 2, n)[0]) for n in INDICES]) > 12
     assert_within_noise(seen, tmp_path, expected)
 
 

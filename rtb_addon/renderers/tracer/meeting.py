@@ -1,8 +1,9 @@
 """
 Where paths meet surfaces of one kind of material, and what such a kind can do.
 
-Directions never depend on wavelength; what depends on it comes out as a column per band. So
-the spectra of a scene never decide where a path goes.
+Directions do not depend on wavelength; what depends on it comes out as a column per band. So the spectra of
+a scene never decide where a path goes, but for glass that disperses and for what is fluorescent: there a path
+may be left to one of its bands.
 """
 
 from __future__ import annotations
