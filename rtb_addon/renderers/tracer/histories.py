@@ -1,4 +1,4 @@
-"""Paths that remember which spectra they met: light is multiplied out in all bands at the end (carried.py)."""
+"""Paths that remember which spectra they met: light is multiplied out in all bands at the end."""
 
 from __future__ import annotations
 
