@@ -10,8 +10,8 @@ from ..consent import has_consent
 from ..errors import RecipeError
 from .condition_scene import (
     adjustments_of,
-    refuse_layers,
     refusals,
+    refuse_layers,
     remodeled_parent,
     renderer_of,
     resolve_condition,

@@ -81,10 +81,10 @@ def indices(values: NDArray[np.integer]) -> bytes:
 
 def _looked_up(table: NDArray[np.bytes_], places: NDArray[np.integer]) -> bytes:
     """Return words, each with its blank, at places; numpy pads them with zero bytes, which then go."""
-    if table.dtype.itemsize == 8:  # numpy moves numbers faster than letters
-        table = table.view(np.uint64)
+    # Numpy moves numbers faster than letters.
+    words = table.view(np.uint64) if table.dtype.itemsize == 8 else table
     pieces = (places[start : start + _CHUNK] for start in range(0, len(places), _CHUNK))
-    return b"".join(table.take(piece).tobytes().translate(None, b"\0") for piece in pieces)[:-1]
+    return b"".join(words.take(piece).tobytes().translate(None, b"\0") for piece in pieces)[:-1]
 
 
 def _whole_numbers(count: int) -> NDArray[np.bytes_]:
