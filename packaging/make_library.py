@@ -12,7 +12,7 @@ with warnings.catch_warnings():
 OBSERVER = colour.MSDS_CMFS["CIE 1931 2 Degree Standard Observer"]
 CONES = colour.MSDS_CMFS["Stockman & Sharpe 2 Degree Cone Fundamentals"]
 DATA = Path(__file__).resolve().parents[1] / "rtb_addon" / "data"
-CHECKERS = ("BabelColor Average", "ColorChecker N Ohta", "ISO 17321-1", "PMC")
+CHECKERS = ("BabelColor Average", "ColorChecker N Ohta", "ISO 17321-1")
 LAMPS = {
     "Pointer Lamps": lamps.SDS_LIGHT_SOURCES_RIT,
     "NIST Lamps": lamps.SDS_LIGHT_SOURCES_NIST_TRADITIONAL,

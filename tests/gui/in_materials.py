@@ -136,6 +136,9 @@ def worlds(driver: Driver, folder: Path):
     world.rtb.kind, world.rtb.image = "IMAGE", image
     yield 1.2
     driver.photograph("world-image")
+    world.rtb.kind = "SUNSKY"
+    yield 1.0
+    driver.photograph("world-sky")
 
 
 def assets(driver: Driver):

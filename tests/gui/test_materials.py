@@ -16,6 +16,7 @@ PANELS = (
     "light-lux",
     "world-constant",
     "world-image",
+    "world-sky",
     "assets",
 )
 
