@@ -306,6 +306,20 @@ class TestEveryRenderer:
         assert (found.planes["uv"][ball] != 0).any()
         np.testing.assert_allclose(np.linalg.norm(found.planes["normal"][ball], axis=1), 1, atol=1e-5)
 
+    def test_a_lamp_that_is_a_ball_is_an_object_like_others(self, renderer, tmp_path):
+        one = replace(stage(), lights=(lamp("point", at(0, 0, 1.5), radius=0.3),))
+        found = layers_of(renderer, one, tmp_path, "depth", "normal", "object")
+        ball = found.planes["object"] == 1 + found.names["object"].index("Lamp")
+        towards = through_pixels()
+        towards = towards / np.linalg.norm(towards, axis=2, keepdims=True)
+        along = -1.5 * towards[:, :, 2]
+        inside = 0.3**2 - 1.5**2 + along**2
+        assert (ball == (inside > 0)).all()
+        point = towards * (along - np.sqrt(np.maximum(inside, 0)))[:, :, None] + [0, 0, 3]
+        np.testing.assert_allclose(found.planes["depth"][ball], 3 - point[ball][:, 2], rtol=1e-5)
+        normals = (point[ball] - [0, 0, 1.5]) / 0.3
+        np.testing.assert_allclose(found.planes["normal"][ball], normals, atol=1e-4)
+
     def test_a_mesh_without_a_map_has_no_uvs(self, renderer, tmp_path):
         bare = Mesh(UNWRAPPED.vertices, UNWRAPPED.triangles)
         one = replace(stage(), shapes=(Shape("Sheet", bare, TILTED, "paint"),))

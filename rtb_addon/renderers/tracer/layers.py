@@ -17,6 +17,7 @@ from .camera import rays
 from .carried import InBands
 from .directions import dot, normalised
 from .integrate import ONWARD, Draw, World, met_surfaces, pairs_needed, scattered
+from .lights import sorted_out
 from .passes import TILE, Alone, Painter, numbers_of, render, render_round
 from .paths import Paths
 from .sampler import Sampler
@@ -43,7 +44,9 @@ def render_layers(
         planes |= _by_bounce(scene, painter, options, lambda done: report(share + (1 - share) * done))
     part = scene.film.part
     found = {name: planes[name].reshape(part.height, part.width, -1) for name in names}
-    numbered = {"object": [shape.id for shape in scene.shapes], "material": list(scene.materials)}
+    # Lamps that are solid are seen as well, and numbered after the shapes.
+    seen = [*scene.shapes, *sorted_out(scene)[1]]
+    numbered = {"object": [one.id for one in seen], "material": list(scene.materials)}
     return Layers(
         {name: plane[:, :, 0] if plane.shape[2] == 1 else plane for name, plane in found.items()},
         scene.film.bands if lit or "albedo" in names else None,
@@ -88,6 +91,7 @@ def _met(scene: RenderScene, world: World, numbers: IntArray, uvs: FloatArray) -
     planes["normal"][rows] = (place.side * place.normals).T
     for number, centre in enumerate(world.lights.spheres.places.T):
         ball = np.nonzero(hits.triangle == -2 - number)[0]
+        planes["object"][ball] = len(scene.shapes) + 1 + number
         planes["normal"][ball] = normalised(points.take(ball, axis=1) - centre[:, None]).T
     planes["uv"][rows] = (first + some.u * (second - first) + some.v * (third - first)).T
     planes["object"][rows, 0] = where.shape.take(some.triangle) + 1

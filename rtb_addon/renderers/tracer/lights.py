@@ -60,7 +60,7 @@ class Lights:
         row_of_shape = np.full(len(scene.shapes) + 1, -1, np.int32)
         row_of_shape[emitting] = np.arange(len(emitting))
         self._row_of, self._normals = row_of_shape[surfaces.shape], surfaces.normals
-        lamps, spheres, suns = _sorted_out(scene)
+        lamps, spheres, suns = sorted_out(scene)
         count = len(emitting)
         self._triangles = Triangles(surfaces, self._row_of)
         self._row_of = np.pad(self._row_of, (0, 1 + len(spheres)), constant_values=-1)
@@ -183,7 +183,7 @@ class Lights:
         self._per_area[self._triangles.triangle] = ours / self._triangles.area
 
 
-def _sorted_out(scene: RenderScene) -> tuple[list[Light], list[Light], list[Light]]:
+def sorted_out(scene: RenderScene) -> tuple[list[Light], list[Light], list[Light]]:
     """Return the lights that are points, those that are spheres, and suns."""
     suns = [light for light in scene.lights if light.kind == "directional"]
     beams = [light for light in scene.lights if light.kind != "directional"]
