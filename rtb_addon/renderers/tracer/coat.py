@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from functools import lru_cache
+
 import numpy as np
 
 from ...scene.render_scene import IntArray
@@ -28,13 +30,9 @@ class Coats:
     """
 
     def __init__(self, eta: FloatArray, roughness: FloatArray, slopes: Slopes) -> None:
-        cosines = np.linspace(1e-6, 1, _ANGLES)
-        pairs = list(zip(eta, roughness, strict=True))
-        self._through = np.array([transmitted(cosines, *pair, slopes) for pair in pairs])
-        # The mean over the table, as Mitsuba 3 takes it; the integral itself is one or two per cent more.
-        self.inside = np.array(
-            [2 * np.mean(cosines * reflected(cosines, 1 / e, a, slopes)) for e, a in pairs]
-        )
+        tables = [_table(*pair, slopes) for pair in zip(eta.tolist(), roughness.tolist(), strict=True)]
+        self._through = np.array([through for through, _ in tables])
+        self.inside = np.array([inside for _, inside in tables])
 
     def transmitted(self, row: IntArray, cosine: FloatArray) -> FloatArray:
         """Return the share that comes in from directions with (n,) cosines to the normal."""
@@ -42,6 +40,15 @@ class Coats:
         low = np.minimum(place.astype(int), _ANGLES - 2)
         part = place - low
         return self._through[row, low] * (1 - part) + self._through[row, low + 1] * part
+
+
+@lru_cache(maxsize=64)
+def _table(eta: float, roughness: float, slopes: Slopes) -> tuple[FloatArray, float]:
+    """Return what comes in at all angles, and what is reflected inside; conditions have that in common."""
+    cosines = np.linspace(1e-6, 1, _ANGLES)
+    # The mean over the table, as Mitsuba 3 takes it; the integral itself is one or two per cent more.
+    inside = 2 * np.mean(cosines * reflected(cosines, 1 / eta, roughness, slopes))
+    return transmitted(cosines, eta, roughness, slopes), float(inside)
 
 
 def reflected(cosines: FloatArray, eta: float, roughness: float, slopes: Slopes) -> FloatArray:
