@@ -373,7 +373,7 @@ def test_an_empty_scene_shows_its_sky(kernel):
 
 def test_progress_rises_to_one_and_a_raised_cancel_stops(tmp_path):
     heard = []
-    tall = busy_room(size=(80, 80), samples=2, depth=2)
+    tall = busy_room(size=(80, 80), samples=12, depth=2)
     picture(tall, tmp_path, heard.append)
     assert heard == sorted(heard)
     assert (heard[0], heard[-1]) == (0.0, 1.0)

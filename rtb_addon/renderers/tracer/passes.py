@@ -31,7 +31,7 @@ from .sampler import Sampler
 
 # Paths in a tile, whose light is summed before it is multiplied out in all bands; and in a wave: few enough
 # that its arrays stay in the processor's cache, enough that numpy's own overhead does not count.
-TILE, WAVE = 2**15, 2**13
+TILE, WAVE = 2**15, 2**14
 # Of the kind ``mean`` each path sees one of so many equal parts of every band.
 _PARTS = 10
 
