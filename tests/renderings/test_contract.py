@@ -11,6 +11,7 @@ from rtb_addon.layers import NAMES, Layers
 from rtb_addon.renderers import find
 from rtb_addon.renderers.filters import FILTERS
 from rtb_addon.renderers.interface import RenderOptions
+from rtb_addon.renderers.tracer import together
 from rtb_addon.scene.render_scene import Camera, Crop, Material, Mesh, Shape
 from rtb_addon.spectra import Bands, Spectrum
 from tests.renderings.film_scenes import edge_spread, half_plane, lit_floor
@@ -82,6 +83,12 @@ def through_pixels(count=20):
 @pytest.fixture(params=RENDERERS)
 def renderer(request):
     return find(request.param)
+
+
+@pytest.fixture(scope="module", autouse=True)
+def _no_process_stays():
+    yield
+    together.stop_processes()
 
 
 class TestEveryRenderer:

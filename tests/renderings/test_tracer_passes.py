@@ -7,7 +7,7 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from rtb_addon.errors import RenderingError
+from rtb_addon.errors import Cancelled, RenderingError
 from rtb_addon.exr import write_exr
 from rtb_addon.renderers import find
 from rtb_addon.renderers.interface import RenderOptions
@@ -21,6 +21,12 @@ from tests.renderings.test_tracer import busy_room
 from tests.renderings.tracer_scenes import SQUARE, lamp, looking_down, matrix, matte, per_band, scene, sky
 
 QUIET = RenderOptions()
+
+
+@pytest.fixture(scope="module", autouse=True)
+def _no_process_stays():
+    yield
+    together.stop_processes()
 
 
 def shown(one, options=QUIET):
@@ -139,3 +145,19 @@ def test_a_process_that_dies_is_told_and_the_next_picture_has_another(tmp_path):
         list(painter.paint(tiles, lambda fraction: None))
     again = tracer.render(native, RenderOptions(2), lambda fraction: None).radiance
     np.testing.assert_array_equal(again, tracer.render(native, QUIET, lambda fraction: None).radiance)
+
+
+def test_who_cancels_leaves_the_processes_to_the_next_picture(tmp_path):
+    tracer = find("tracer")
+    native = tracer.translate(busy_room(size=(120, 80), samples=64), (), tmp_path, "scene")
+
+    def stop(fraction):
+        if fraction > 0:
+            raise Cancelled
+
+    with pytest.raises(Cancelled):
+        tracer.render(native, RenderOptions(2), stop)
+    before = [one.pid for one in together.Together(native, 2).processes]
+    whole = tracer.render(native, RenderOptions(2), lambda fraction: None).radiance
+    assert [one.pid for one in together.Together(native, 2).processes] == before
+    np.testing.assert_array_equal(whole, tracer.render(native, QUIET, lambda fraction: None).radiance)

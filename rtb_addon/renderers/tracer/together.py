@@ -85,10 +85,18 @@ def main() -> None:
 
 def _started(count: int) -> list[subprocess.Popen]:
     """Return so many children, those of the last picture where they still listen."""
-    _children[:] = [one for one in _children if one.poll() is None]
+    for one in [one for one in _children if one.poll() is not None]:
+        _children.remove(one)
+        _close(one)
     while len(_children) < count:
         _children.append(start_child([], __name__, threads=1))
     return _children[:count]
+
+
+def _close(child: subprocess.Popen) -> None:
+    """Close what an ended child spoke through."""
+    with child:
+        pass
 
 
 def _asked(child: subprocess.Popen, question: dict[str, Any]) -> dict[str, Any]:
@@ -105,8 +113,11 @@ def _asked(child: subprocess.Popen, question: dict[str, Any]) -> dict[str, Any]:
 
 
 @atexit.register
-def _stop() -> None:
+def stop_processes() -> None:
+    """End the processes that wait for another scene."""
     stop_all(_children, _GRACE)
+    while _children:
+        _close(_children.pop())
 
 
 if __name__ == "__main__":
