@@ -15,6 +15,10 @@ FloatArray = NDArray[np.floating]
 BandKind = Literal["averaged", "mean", "centre"]
 
 
+# Of the kind ``mean``, each path sees one of so many equal parts of every band.
+PARTS = 10
+
+
 class Part(NamedTuple):
     """
     One of equal parts of every band: what a path sees of it, where products are to be averaged.

@@ -10,21 +10,19 @@ from __future__ import annotations
 
 import numpy as np
 
-from ...spectra import BandKind, Bands, FloatArray, Spectrum
-
-_TENTHS = 10
+from ...spectra import PARTS, BandKind, Bands, FloatArray, Spectrum
 
 
 def parts_of(kind: BandKind) -> int:
     """Return how many parts bands of a kind have."""
-    return _TENTHS if kind == "mean" else 1
+    return PARTS if kind == "mean" else 1
 
 
 def divided(bands: Bands, kind: BandKind) -> tuple[Bands, BandKind]:
     """Return bands that are parts of bands, and what is asked of each."""
     if kind != "mean":
         return bands, kind
-    steps = np.arange(_TENTHS) / _TENTHS
+    steps = np.arange(PARTS) / PARTS
     starts = (bands.edges[:-1, None] + bands.widths[:, None] * steps).ravel()
     edges = np.append(starts, bands.edges[-1])
     return Bands((edges[1:] + edges[:-1]) / 2, edges), "averaged"

@@ -15,7 +15,7 @@ import numpy as np
 
 from ...errors import RenderingError
 from ...scene.render_scene import IntArray, RenderScene
-from ...spectra import FloatArray, Part
+from ...spectra import PARTS, FloatArray, Part
 from ..filters import FILTERS
 from ..interface import RenderOptions, Report
 from ..rounds import Progress, Rounds, rounds_of
@@ -32,8 +32,6 @@ from .sampler import Sampler
 # Paths in a tile, whose light is summed before it is multiplied out in all bands; and in a wave: few enough
 # that its arrays stay in the processor's cache, enough that numpy's own overhead does not count.
 TILE, WAVE = 2**15, 2**14
-# Of the kind ``mean`` each path sees one of so many equal parts of every band.
-_PARTS = 10
 
 
 class Tile(NamedTuple):
@@ -154,7 +152,7 @@ def _in_parts(scene: RenderScene) -> list[RenderScene]:
     """Return the scene, of the kind ``mean`` once for each part of its bands."""
     if scene.film.band_kind != "mean":
         return [scene]
-    films = [replace(scene.film, band_kind=Part(number, _PARTS)) for number in range(_PARTS)]
+    films = [replace(scene.film, band_kind=Part(number, PARTS)) for number in range(PARTS)]
     return [replace(scene, film=film) for film in films]
 
 
