@@ -15,7 +15,7 @@ from rtb_addon.renderers.tracer import carried, histories, integrate, passes, to
 from rtb_addon.renderers.tracer.film import offsets
 from rtb_addon.renderers.tracer.intersect import best_kernel
 from rtb_addon.renderers.tracer.sky import Skies
-from rtb_addon.scene.render_scene import Crop, Light, Shape
+from rtb_addon.scene.render_scene import Crop, Light, Mesh, Shape
 from rtb_addon.spectra import Spectrum
 from tests.renderings.test_tracer import busy_room
 from tests.renderings.tracer_scenes import SQUARE, lamp, looking_down, matrix, matte, per_band, scene, sky
@@ -86,6 +86,13 @@ def test_other_spectra_meet_the_same_triangles_and_moved_shapes_others():
     moved = replace(room, shapes=(replace(first, to_world=matrix((0, 0, 0.1))), *others))
     assert passes.Alone(moved).worlds[0].surfaces is not one
     assert passes.Alone(room, lambda corners: best_kernel(corners)).worlds[0].surfaces is not one
+
+
+def test_a_mesh_without_triangles_is_not_in_the_way():
+    room = busy_room()
+    empty = Mesh(np.zeros((0, 3), np.float32), np.zeros((0, 3), np.int32))
+    more = replace(room, shapes=(*room.shapes, Shape("empty", empty, matrix((9, 9, 9)), "red")))
+    np.testing.assert_array_equal(shown(more), shown(room))
 
 
 @pytest.mark.parametrize("options", [QUIET, RenderOptions(errors=True)])

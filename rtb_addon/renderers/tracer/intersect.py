@@ -3,23 +3,23 @@ Where rays meet surfaces.
 
 Embree (or bvh.py) says which triangle a ray meets; the place on it is computed from the triangle itself, so
 that it lies on the surface however far away the camera or a light may be. All in single precision, which is
-finest around zero: the scene has been moved there (around_zero).
+finest around zero: the scene has been moved there (placed.py).
 """
 
 from __future__ import annotations
 
 from collections.abc import Callable, Mapping, Sequence
-from dataclasses import replace
 from typing import NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
 
-from ...scene.render_scene import IntArray, RenderScene, Shape
+from ...scene.render_scene import IntArray, Shape
 from ...spectra import FloatArray
 from .bvh import Bvh
 from .directions import cross, dot, normalised
 from .kernels import Embree, Hits, Kernel
+from .placed import corners, shading_normals, side_of
 from .texture_space import along_uv, corner_uvs
 
 # How far a ray starts off a surface, per size of the numbers in it: 16 units of single precision.
@@ -32,27 +32,6 @@ def best_kernel(corners: FloatArray) -> Kernel:
         return Embree(corners)
     except ImportError:
         return Bvh(corners)
-
-
-def around_zero(scene: RenderScene) -> RenderScene:
-    """Return a scene moved so that the middle of its shapes is the origin."""
-    corners = [shape.to_world[:3, :3] @ _bounds(shape) + shape.to_world[:3, 3:] for shape in scene.shapes]
-    if not corners:
-        return scene
-    whole = np.concatenate(corners, axis=1)
-    middle = (whole.min(axis=1) + whole.max(axis=1)) / 2
-
-    def moved(to_world: FloatArray) -> FloatArray:
-        out = to_world.astype(float)
-        out[:3, 3] -= middle
-        return out
-
-    return replace(
-        scene,
-        camera=replace(scene.camera, to_world=moved(scene.camera.to_world)),
-        shapes=tuple(replace(one, to_world=moved(one.to_world)) for one in scene.shapes),
-        lights=tuple(replace(one, to_world=moved(one.to_world)) for one in scene.lights),
-    )
 
 
 # The surfaces of the last scene: conditions that differ in spectra have them in common.
@@ -151,12 +130,12 @@ class Surfaces:
         self.shape = np.repeat(np.arange(len(shapes), dtype=np.int32), counts)
         numbers = np.array([materials[shape.material] for shape in shapes], np.int32)
         self.material = numbers.take(self.shape)
-        self.corners = _joined([_corners(shape) for shape in shapes])
+        self.corners = corners(shapes)
         one, two = self.corners[1] - self.corners[0], self.corners[2] - self.corners[0]
-        sides = np.array([_side(shape) for shape in shapes]).take(self.shape)
+        sides = np.array([side_of(shape) for shape in shapes]).take(self.shape)
         normals = normalised(cross(one, two)) * sides
         self.normals = normals.astype(np.float32)
-        self._smooth = _shading_normals(shapes, self.normals)
+        self._smooth = shading_normals(shapes, self.normals)
         self._uvs = corner_uvs(shapes) if textured else None
         self._tangents = along_uv(shapes, normals, one, two) if oriented else None
         self.lift = np.abs(self.corners).max(axis=(0, 1), initial=0) * _LIFT
@@ -215,47 +194,3 @@ def _in_rows(vectors: FloatArray) -> FloatArray:
     for axis in range(3):
         rows[:, axis] = vectors[axis]
     return rows
-
-
-def _bounds(shape: Shape) -> FloatArray:
-    """Return the (3, 8) corners of the box around a mesh, in its own space."""
-    used = shape.mesh.vertices[shape.mesh.triangles.ravel()].astype(float)
-    sides = np.stack([used.min(axis=0), used.max(axis=0)])
-    return np.array([sides[[a, b, c], [0, 1, 2]] for a in (0, 1) for b in (0, 1) for c in (0, 1)]).T
-
-
-def _corners(shape: Shape) -> FloatArray:
-    turn, place = shape.to_world[:3, :3], shape.to_world[:3, 3:]
-    world = turn @ shape.mesh.vertices.T.astype(float) + place
-    return world[:, shape.mesh.triangles].transpose(2, 0, 1)
-
-
-def _side(shape: Shape) -> float:
-    """Return -1 for a mirrored shape, whose corners turn the other way in the world, else 1."""
-    return -1.0 if np.linalg.det(shape.to_world[:3, :3]) < 0 else 1.0
-
-
-def _shading_normals(shapes: Sequence[Shape], flat: FloatArray) -> FloatArray | None:
-    """Return (3, 3, triangles) float32 normals, corner and axis first, or None when all shapes are flat."""
-    if all(shape.mesh.normals is None for shape in shapes):
-        return None
-    normals = np.repeat(flat.astype(np.float32)[None], 3, axis=0)
-    first = 0
-    for shape in shapes:
-        last = first + len(shape.mesh.triangles)
-        if shape.mesh.normals is not None:
-            turned = normalised(_normal_matrix(shape.to_world) @ shape.mesh.normals.T)
-            normals[:, :, first:last] = turned[:, shape.mesh.triangles].transpose(2, 0, 1)
-        first = last
-    return normals
-
-
-def _normal_matrix(to_world: FloatArray) -> FloatArray:
-    """Return what turns normals: the inverse transposed, up to length, of a flattened shape too."""
-    a, b, c = to_world[:3, :3]
-    sign = -1.0 if np.dot(a, np.cross(b, c)) < 0 else 1.0
-    return sign * np.array([np.cross(b, c), np.cross(c, a), np.cross(a, b)])
-
-
-def _joined(corners: list[FloatArray]) -> FloatArray:
-    return np.concatenate(corners, axis=2) if corners else np.zeros((3, 3, 0))

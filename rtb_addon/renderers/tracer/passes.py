@@ -24,9 +24,10 @@ from .carried import Carrier
 from .film import offsets
 from .fluorescence import widened
 from .integrate import FILM, LENS, Draw, World, follow, pairs_needed
-from .intersect import around_zero, best_kernel
+from .intersect import best_kernel
 from .kernels import Kernel
 from .paths import Paths
+from .placed import around_zero
 from .sampler import Sampler
 
 # Paths in a tile, whose light is summed before it is multiplied out in all bands; and in a wave: few enough
