@@ -5,9 +5,11 @@ from __future__ import annotations
 from collections.abc import Iterable, Mapping
 from dataclasses import dataclass, field, replace
 from functools import cached_property
+from pathlib import Path
 
 from ..errors import RecipeError, at
 from ..spectra import Spectrum, Unit
+from ..spectra.donaldson import read_donaldson
 from ..spectra.promotion import promoted
 from .adjustments import Remark
 from .collada_colours import NO_EFFECT, Effect, read_effect
@@ -108,7 +110,11 @@ class Materials:
             self.values.warnings.append(
                 f"the emission of {declared.id} is left out, declare the mesh that emits an area light"
             )
-        return Material(declared.id, declared.model, parameters_of(declared, self.values))
+        parameters = parameters_of(declared, self.values)
+        if declared.model == "fluorescent":
+            # What is wrong with its file is said before anything is rendered.
+            read_donaldson(Path(str(parameters["filename"])))
+        return Material(declared.id, declared.model, parameters)
 
     def _promoted(self, id: str) -> Material:
         effect = NO_EFFECT if id == NO_MATERIAL else self._effect(id)

@@ -7,10 +7,10 @@ import pytest
 
 from rtb_addon.errors import RecipeError
 from rtb_addon.exr import write_exr
-from rtb_addon.renderers.donaldson import Donaldson, read_donaldson
 from rtb_addon.renderers.tracer import fluorescence
 from rtb_addon.scene.render_scene import Camera, Material, Shape
 from rtb_addon.spectra import Bands, Spectrum, Unit, library
+from rtb_addon.spectra.donaldson import Donaldson, read_donaldson
 from tests.renderings.tracer_scenes import (
     BANDS,
     SQUARE,
@@ -237,7 +237,7 @@ def test_a_far_wall_sees_the_glow_of_a_plate_in_bands_that_no_lamp_has(tmp_path)
 def test_what_is_no_matrix_is_refused_in_a_sentence(tmp_path, text, sentence):
     (tmp_path / "m.txt").write_text(text)
     with pytest.raises(RecipeError, match=sentence):
-        picture(scene([], [], [glowing(str(tmp_path / "m.txt"))]), tmp_path)
+        read_donaldson(tmp_path / "m.txt")
 
 
 def test_a_picture_of_several_materials_is_refused(tmp_path):

@@ -60,3 +60,15 @@ def test_a_material_without_an_effect_is_grey():
         .values.tolist()
         == [0.5] * 4
     )
+
+
+def test_what_is_wrong_with_the_matrix_of_a_fluorescent_material_is_said(tmp_path):
+    text = "Generic {\nPaint-material:material:fluorescent\nPaint-material:filename.string = m.txt\n}\n"
+    file = tmp_path / "m.txt"
+    file.write_text("300 400\n400 0.1 0.2\n500 0.3 0.1\n")
+    paint = resolved(room(), text, find_file=lambda name: file).scene.materials["Paint-material"]
+    assert (paint.model, paint.parameters["filename"]) == ("fluorescent", str(file))
+    file.write_text("300 400\n400 0.1 0.2\n500 0.3\n")
+    with pytest.raises(RecipeError, match="2 numbers, want an outgoing wavelength and 2 shares") as refused:
+        resolved(room(), text, find_file=lambda name: file)
+    assert refused.value.line == 3

@@ -3,13 +3,11 @@
 from __future__ import annotations
 
 from collections.abc import Iterator, Mapping
-from pathlib import Path
 
 from ...errors import RecipeError
 from ...scene.render_scene import Material, RenderScene, Texture, TextureUse, Value
 from ...scene.vocabulary import MATERIALS
 from ...spectra import Spectrum
-from ..donaldson import read_donaldson
 
 _LIGHTS = {"radius": (0, 1e30), "cone": (0, 180), "blend": (0, 1), "angle": (0, 180)}
 _LENSES = {"lens_radius": (0, 1e6), "focus_distance": (1e-6, 1e30)}
@@ -45,8 +43,6 @@ def check(scene: RenderScene) -> None:
         _check_choices(material)
         _check_references(material, scene.materials)
         _check_relief(material, scene.textures)
-        if material.model == "fluorescent":
-            read_donaldson(Path(str(material.parameters["filename"])))
     for texture in scene.textures.values():
         _check_texture(texture)
     for shape in scene.shapes:

@@ -20,7 +20,7 @@ from numpy.typing import NDArray
 
 from ...scene.render_scene import IntArray, Material, RenderScene
 from ...spectra import Bands, FloatArray
-from ..donaldson import read_donaldson
+from ...spectra.donaldson import read_donaldson
 from .directions import dot
 from .matte import lobe, scattered
 from .meeting import Meeting, Model, Onward, chosen, column

@@ -17,7 +17,8 @@ from numpy.typing import NDArray
 
 from ..errors import RecipeError
 from ..exr import read_exr
-from ..spectra import BandKind, Bands, FloatArray, Part, Spectrum
+from .bands import BandKind, Bands, FloatArray, Part
+from .spectrum import Spectrum
 
 _NM = r"(\d+(?:[.,]\d+)?)nm"
 # As Fichet, Pacanowski and Wilkie, *An OpenEXR Layout for Spectral Images*, 2021: incoming, then outgoing.
