@@ -9,6 +9,7 @@ from typing import NamedTuple
 from ..errors import RecipeError
 from .folders import typed
 from .material_words import is_typed, parameters, takes_texture, texture_of, words_of
+from .table_properties import spoken_cell
 
 _VARIABLE = re.compile(r"\(([^()]+)\)")
 
@@ -149,4 +150,4 @@ def _cell(settings, variable: str, otherwise: str) -> str:
     row = settings.active_condition
     if number < 0 or row >= len(settings.conditions) or number >= len(settings.conditions[row].cells):
         return otherwise
-    return settings.conditions[row].cells[number].value
+    return spoken_cell(settings.variables[number], settings.conditions[row].cells[number].value)

@@ -27,6 +27,7 @@ from .path_mappings import paths_text
 from .preview import suspended
 from .seen import Seen, seen_in
 from .table import SpectrumFiles, Table, mappings_text
+from .table_properties import spoken_cell
 from .varied import set_value, subject_of, value_at
 from .written_mappings import declared_in, resources_of, written_mappings
 
@@ -254,7 +255,9 @@ def _table(scene, name: str) -> Table:
                 f"the condition {names[-1]} has {len(cells)} cells for {len(variables)} variables"
             )
         rows.append(dict(zip(variables, cells, strict=True)))
-    return Table(variables, names, rows)
+    kinds = {each.name: each for each in settings.variables}
+    spoken = [{name: spoken_cell(kinds[name], cell) for name, cell in row.items()} for row in rows]
+    return Table(variables, names, rows, spoken)
 
 
 def _name_cameras(table: Table, looks: Sequence[_Look]) -> str:

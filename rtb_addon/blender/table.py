@@ -56,13 +56,18 @@ class Table:
     variables : as the scene has them
     names : of the conditions
     rows : cells of each condition, by variable
+    spoken : the same as they are typed for spectra
     """
 
     def __init__(
-        self, variables: Sequence[str], names: Sequence[str], rows: Sequence[Mapping[str, str]]
+        self,
+        variables: Sequence[str],
+        names: Sequence[str],
+        rows: Sequence[Mapping[str, str]],
+        spoken: Sequence[Mapping[str, str]] = (),
     ) -> None:
         self.variables, self.names = list(variables), list(names)
-        self.typed = [dict(row) for row in rows]
+        self.typed, self._spoken = [dict(row) for row in rows], [dict(row) for row in spoken or rows]
         self.cells = [dict(row) for row in rows]
         self._columns: dict[tuple, str] = {}
 
@@ -113,14 +118,14 @@ class Table:
         return _VARIABLE.sub(lambda found: self._cell(row, found[1], spoken.owner), spoken.text)
 
     def _cell(self, row: int, variable: str, owner: str) -> str:
-        if variable not in self.typed[row]:
+        if variable not in self._spoken[row]:
             known = ", ".join(self.variables) or "none"
             raise RecipeError(f"{owner} uses ({variable}), the variables of the conditions are {known}")
-        if not self.typed[row][variable].strip():
+        if not self._spoken[row][variable].strip():
             raise RecipeError(
                 f"the condition {self.names[row]} says nothing for {variable}, {owner} needs it"
             )
-        return self.typed[row][variable]
+        return self._spoken[row][variable]
 
     def _free(self, name: str) -> str:
         number, found = 1, name

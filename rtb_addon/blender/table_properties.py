@@ -55,6 +55,16 @@ def _set_colour(cell, value) -> None:
     cell.value = " ".join(map(in_digits, value))
 
 
+def spoken_cell(variable, text: str) -> str:
+    """Return a cell as it would be typed for a spectrum: a colour as a spectrum that shows it."""
+    numbers = numbers_of(text)
+    if variable.kind != "COLOUR" or len(numbers) != 3:
+        return text
+    from .principled import in_words  # brings numpy, which enabling need not wait for
+
+    return in_words((numbers[0], numbers[1], numbers[2]))
+
+
 def in_digits(value: float) -> str:
     """Return a number of single precision with as many digits as tell it from others, at most seven."""
     for digits in range(1, 9):

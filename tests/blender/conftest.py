@@ -12,6 +12,8 @@ os.environ["BLENDER_USER_RESOURCES"] = tempfile.mkdtemp(prefix="rtb-blender-user
 import bpy
 import pytest
 
+from tests.blender.tables import ROWS
+
 ROOT = Path(__file__).resolve().parents[2]
 EXTENSION = "bl_ext.user_default.render_toolbox"
 
@@ -124,3 +126,42 @@ def still(scene, box, lamp):
     bpy.data.materials["Paint"].rtb.use_spectra = True
     bpy.data.materials["Paint"].rtb.reflectance = "0.5"
     return scene
+
+
+@pytest.fixture
+def module(extension):
+    """Return a module of the extension as Blender has loaded it."""
+    return lambda name: importlib.import_module(f"{extension}.{name}")
+
+
+@pytest.fixture
+def family(extension, module, tmp_path):
+    """Blender's default scene, saved, as a recipe of two conditions that is quickly rendered."""
+    bpy.ops.wm.read_homefile(use_factory_startup=True)
+    scene = bpy.context.scene
+    bpy.data.materials["Material"].rtb.use_spectra = True
+    bpy.data.materials["Material"].rtb.reflectance = "(paint)"
+    bpy.data.lights["Light"].rtb.use_spectra = True
+    rows = [[patch, f"BabelColor Average/{patch}"] for patch in ("blue", "green")]
+    module("rtb_addon.blender").set_conditions(scene, ["imageName", "paint"], rows)
+    scene.rtb.renderer, scene.rtb.samples = "tracer", 2
+    scene.rtb.width, scene.rtb.height = 24, 16
+    bpy.ops.wm.save_as_mainfile(filepath=str(tmp_path / "cube.blend"))
+    return bpy.context.scene
+
+
+@pytest.fixture
+def settings(extension):
+    """What the default scene says: three conditions of two variables, the second of each active."""
+    bpy.ops.wm.read_homefile(use_factory_startup=True)
+    settings = bpy.context.scene.rtb
+    settings.set_conditions(["imageName", "paint", "light"], ROWS)
+    settings.active_condition = settings.active_variable = 1
+    return settings
+
+
+@pytest.fixture
+def empty(extension):
+    """A scene without table."""
+    bpy.ops.wm.read_homefile(use_factory_startup=True)
+    return bpy.context.scene.rtb

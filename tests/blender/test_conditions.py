@@ -7,47 +7,7 @@ import bpy
 import pytest
 
 from tests.blender.stand_in_layout import RecordingLayout
-
-ROWS = [("a", "0.1", "D65"), ("b", "0.2", "A"), ("c", "0.3", "FL2")]
-
-
-@pytest.fixture
-def settings(extension):
-    """What the default scene says: three conditions of two variables, the second of each active."""
-    bpy.ops.wm.read_homefile(use_factory_startup=True)
-    settings = bpy.context.scene.rtb
-    settings.set_conditions(["imageName", "paint", "light"], ROWS)
-    settings.active_condition = settings.active_variable = 1
-    return settings
-
-
-@pytest.fixture
-def empty(extension):
-    """A scene without table."""
-    bpy.ops.wm.read_homefile(use_factory_startup=True)
-    return bpy.context.scene.rtb
-
-
-def table(settings) -> list[tuple[str, ...]]:
-    return [(row.name, *(cell.value for cell in row.cells)) for row in settings.conditions]
-
-
-def variables(settings) -> list[str]:
-    return [each.name for each in settings.variables]
-
-
-def column(settings, name: str) -> list[str]:
-    index = variables(settings).index(name)
-    return [row.cells[index].value for row in settings.conditions]
-
-
-def sentence(operator, **properties) -> str:
-    """Run an operator that must refuse, and return its sentence; the table is as it was."""
-    before = table(bpy.context.scene.rtb)
-    with pytest.raises(RuntimeError) as caught:
-        operator(**properties)
-    assert table(bpy.context.scene.rtb) == before
-    return str(caught.value).strip()
+from tests.blender.tables import ROWS, column, sentence, table, variables
 
 
 def test_a_row_is_added_like_the_active_one(settings):

@@ -1,6 +1,5 @@
 """What the user can do: every operator from a script, as the panel's buttons call it."""
 
-import importlib
 import os
 import subprocess
 import sys
@@ -13,25 +12,9 @@ PATCHES = ("blue", "green")
 
 
 @pytest.fixture
-def module(extension):
-    """Return a module of the extension as Blender has loaded it."""
-    return lambda name: importlib.import_module(f"{extension}.{name}")
-
-
-@pytest.fixture
-def scene(extension, module, tmp_path):
-    """Blender's default scene, saved, as a recipe of two conditions that is quickly rendered."""
-    bpy.ops.wm.read_homefile(use_factory_startup=True)
-    scene = bpy.context.scene
-    bpy.data.materials["Material"].rtb.use_spectra = True
-    bpy.data.materials["Material"].rtb.reflectance = "(paint)"
-    bpy.data.lights["Light"].rtb.use_spectra = True
-    rows = [[patch, f"BabelColor Average/{patch}"] for patch in PATCHES]
-    module("rtb_addon.blender").set_conditions(scene, ["imageName", "paint"], rows)
-    scene.rtb.renderer, scene.rtb.samples = "tracer", 2
-    scene.rtb.width, scene.rtb.height = 24, 16
-    bpy.ops.wm.save_as_mainfile(filepath=str(tmp_path / "cube.blend"))
-    return bpy.context.scene
+def scene(family):
+    """A recipe of two conditions that is quickly rendered."""
+    return family
 
 
 def sentence_of(operator, **properties) -> str:
