@@ -39,6 +39,7 @@ class Pictures:
     Attributes
     ----------
     any : whether some lobe has one
+    everywhere : whether every lobe has one of few channels
     """
 
     def __init__(self, lobes: Sequence[Lobe | None], bands: Bands, kind: BandKind, padded: int) -> None:
@@ -57,6 +58,8 @@ class Pictures:
         self._layout, self._places = mi.UInt32(layout.ravel()), floats(places)
         tables = (_table(blocks) for blocks in (store.few, store.many, store.weights))
         self._few_texels, self._many_texels, self._weights = tables
+        self._shared = _shared(store, padded)
+        self.everywhere = self._few and bool((layout[:, _KIND] == 1).all())
 
     def for_parts(self, part) -> Pictures:
         """Return the pictures as paths see them that take some part of each band, a mi.UInt32."""
@@ -66,6 +69,8 @@ class Pictures:
 
     def reflectance(self, lobe, uv, plain: list, active) -> list:
         """Return the spectrum of a lobe's picture at a place, or the plain one where it has none."""
+        if self.everywhere:
+            return self._of_channels(lobe, uv, plain)
         kind = self._number(lobe, _KIND, active)
         # Where no path of a bundle meets a picture, nothing is looked up.
         if self._few:
@@ -86,6 +91,10 @@ class Pictures:
         channels: Any = mi.Vector4f(0)
         for texel, share in self._around(lobe, uv):
             channels += share * dr.gather(mi.Vector4f, self._few_texels, texel)
+        if self._shared and self._part is None:
+            return [
+                sum((channels[k] * weights[k] for k in range(_FEW)), mi.Float(0)) for weights in self._shared
+            ]
         row = self._number(lobe, _ROW, True)
         if self._part is not None:
             row += self._part * _FEW
@@ -103,6 +112,14 @@ class Pictures:
             values = _bands(self._many_texels, texel, self._packets)
             total = [dr.fma(share, value, so_far) for value, so_far in zip(values, total, strict=True)]
         return total
+
+
+def _shared(store: _Store, padded: int) -> list[list[Any]]:
+    """Return the weights of the only picture of few channels, in memory: each band's, each channel's."""
+    if len(store.weights) != 1 or not store.few:
+        return []
+    weights = np.reshape(store.weights[0], (-1, _FEW, padded))[0]
+    return [[dr.opaque(mi.Float, float(weight)) for weight in column] for column in weights.T]
 
 
 def _as_it_is(lobe, uv, plain: list) -> list:

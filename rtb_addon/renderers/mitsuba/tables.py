@@ -140,7 +140,8 @@ class Tables:
         """
         if self.single:
             return None
-        plain = self._bands(self._emissions, row, active)
+        black = [mi.Float(0)] * self.padded_bands
+        plain = black if self.sky.everywhere else self._bands(self._emissions, row, active)
         if not self.sky.any:
             return plain
         local = mi.Vector3f(*(dr.dot(axis, towards) for axis in self._sky_axes))
