@@ -36,9 +36,11 @@ def rendering(driver: Driver, folder: Path):
 
 
 def press_f12(driver: Driver):
-    """Press F12 over the viewport, and wait until the rendering is at work."""
+    """Press F12 over the viewport, and wait until the rendering is at work in a process of its own."""
     yield from driver.press("F12", "VIEW_3D")
-    yield 1.5
+    deadline = time.monotonic() + 10
+    while not (bpy.app.is_job_running("RENDER") and children()) and time.monotonic() < deadline:
+        yield 0.05
 
 
 def break_off(driver: Driver):
