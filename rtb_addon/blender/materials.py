@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterator, Mapping
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from pathlib import Path
 
 import bpy
@@ -82,7 +82,8 @@ def read_material(material, meter: float = 1.0) -> Paint:
     meter : length of the scene's unit [m]
     """
     colour = linear_rec709(colour_of_material(material).colour)
-    return _tagged(material, colour, meter) if material.rtb.use_spectra else _promoted(material, colour)
+    read = _tagged if material.rtb.use_spectra else _promoted
+    return read(material, colour, meter)
 
 
 def parts_of(material) -> Iterator:
@@ -115,7 +116,9 @@ def _tagged(material, colour: tuple[float, float, float], meter: float) -> Paint
             words[name] = _measured(material, value, owner)
         else:
             words[name] = Named("string", value)
-    relief = _relief(settings, owner, meter)
+    relief = None
+    if settings.detail != "NONE":
+        relief = _relief(settings.detail, settings.detail_image, settings.detail_scale, owner, meter)
     opacity = 1.0 if settings.model == "mask" else settings.opacity
     remarks = tuple(_glowing(material))
     return Paint(
@@ -126,13 +129,14 @@ def _tagged(material, colour: tuple[float, float, float], meter: float) -> Paint
     )
 
 
-def _promoted(material, colour: tuple[float, float, float]) -> Paint:
+def _promoted(material, colour: tuple[float, float, float], meter: float) -> Paint:
     """Return what a material without spectra comes to; a matte colour is left to the parent scene."""
     name, owner = material.name_full, f"the material {material.name_full}"
     promoted = promoted_from(material)
     clauses = "; ".join((promoted.how, *left_out(material)))
     remarks = (f"{owner} has no spectrum: {clauses}", *_textured(material, promoted), *_glowing(material))
-    if promoted.model == "matte" and not promoted.images:
+    plain = not promoted.images and promoted.relief is None and promoted.opacity == 1
+    if promoted.model == "matte" and plain:
         return Paint(name, colour, remarks=remarks)
     kinds = {key: each.kind for key, each in MATERIALS[promoted.model].items()}
     textures = {key: _bitmap(each, "repeat", owner) for key, each in promoted.images.items()}
@@ -140,7 +144,9 @@ def _promoted(material, colour: tuple[float, float, float]) -> Paint:
     spectra = {key: Spoken(value, owner) for key, value in said.items() if kinds[key] == "spectrum"}
     numbers = {key: float(said[key]) for key in said if kinds[key] in ("number", "index")}
     words = {key: Named("string", said[key]) for key in said if kinds[key] == "text"}
-    return Paint(name, colour, promoted.model, spectra, numbers, words, {}, textures, remarks=remarks)
+    relief = _relief(*promoted.relief, owner, meter) if promoted.relief else None
+    painted = Paint(name, colour, promoted.model, spectra, numbers, words, {}, textures)
+    return replace(painted, relief=relief, opacity=promoted.opacity, remarks=remarks)
 
 
 def _textured(material, promoted: Promoted) -> Iterator[str]:
@@ -176,11 +182,8 @@ def _bitmap(image, wrap: str, owner: str, numbers: Mapping[str, float] | None = 
     return Pattern("bitmap", {}, {**(numbers or {}), "gamma": 1.0 if raw else gamma_of(image)}, words)
 
 
-def _relief(settings, owner: str, meter: float) -> Relief | None:
-    if settings.detail == "NONE":
-        return None
-    picture = _bitmap(settings.detail_image, "repeat", owner, raw=True)
-    return Relief(settings.detail, picture, settings.detail_scale * meter)
+def _relief(model: str, image, height: float, owner: str, meter: float) -> Relief:
+    return Relief(model, _bitmap(image, "repeat", owner, raw=True), height * meter)
 
 
 def _measured(material, said: str, owner: str) -> Picture:

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from typing import NamedTuple
+from typing import Any, NamedTuple
 
 _COLOURED = {"BSDF_PRINCIPLED": "Base Color", "BSDF_DIFFUSE": "Color"}
 _GLOWING = {
@@ -67,6 +67,36 @@ def surface_node(tree):
     if chosen is None or not chosen.inputs["Surface"].is_linked:
         return None
     return chosen.inputs["Surface"].links[0].from_node
+
+
+def relief_of(node) -> tuple[str, Any, float] | None:
+    """
+    Return what tilts a shader's surface: bumpmap or normalmap, its image, and how high it is [scene units].
+
+    None where it is not as simple: an image over the UV map, in tangent space and of its full strength.
+    """
+    socket = None if node is None else node.inputs.get("Normal")
+    if socket is None or not socket.is_linked:
+        return None
+    tilting = socket.links[0].from_node
+    if tilting.type == "BUMP" and not tilting.inputs["Normal"].is_linked and not tilting.invert:
+        image = image_of(tilting, "Height")
+        strength, distance = (tilting.inputs[name].default_value for name in ("Strength", "Distance"))
+        return None if image is None else ("bumpmap", image, strength * distance)
+    if (
+        tilting.type != "NORMAL_MAP"
+        or tilting.space != "TANGENT"
+        or tilting.inputs["Strength"].default_value != 1
+    ):
+        return None
+    image = image_of(tilting, "Color")
+    return None if image is None else ("normalmap", image, 0.0)
+
+
+def opacity_of(node) -> float:
+    """Return the part of the light that meets a shader's surface."""
+    socket = None if node is None else node.inputs.get("Alpha")
+    return 1.0 if socket is None or socket.is_linked else min(float(socket.default_value), 1.0)
 
 
 def image_of(node, name: str):

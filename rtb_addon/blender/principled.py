@@ -8,11 +8,11 @@ more is matte, what is left is plastic. Roughness squared is the width of its GG
 from __future__ import annotations
 
 from collections.abc import Iterator, Mapping
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from typing import Any
 
 from .material_words import texture_of, words_of
-from .nodes import colour_of_material, has_nodes, image_of, surface_node
+from .nodes import colour_of_material, has_nodes, image_of, opacity_of, relief_of, surface_node
 
 _MATTE_FROM = 0.5
 _HALF = 0.5
@@ -32,16 +32,25 @@ class Promoted:
     said : parameter -> what somebody would type, a number or a word
     images : parameter -> image of Blender that stands for it
     how : the end of a sentence: what it was promoted from, and what was left out
+    relief : what tilts the surface, as relief_of() finds it
+    opacity : part of the light that meets it
     """
 
     model: str
     said: Mapping[str, Any]
     images: Mapping[str, Any] = field(default_factory=dict)
     how: str = ""
+    relief: tuple[str, Any, float] | None = None
+    opacity: float = 1.0
 
 
 def promoted_from(material) -> Promoted:
     """Return what a material's shader, else its viewport colour, comes to."""
+    node = surface_node(material.node_tree) if has_nodes(material) else None
+    return replace(_surface(material), relief=relief_of(node), opacity=opacity_of(node))
+
+
+def _surface(material) -> Promoted:
     found = colour_of_material(material)
     node = surface_node(material.node_tree) if has_nodes(material) else None
     shown = " ".join(f"{each:.3g}" for each in _linear(found.colour))
@@ -118,6 +127,9 @@ def promote(material) -> str:
     for parameter, image in promoted.images.items():
         texture = getattr(settings, texture_of(words_of(parameter).name))
         texture.kind, texture.image = "bitmap", image
+    settings.opacity = promoted.opacity
+    if promoted.relief is not None:
+        settings.detail, settings.detail_image, settings.detail_scale = promoted.relief
     return "; ".join((f"{material.name}: {promoted.how}", *left_out(material)))
 
 
@@ -130,6 +142,11 @@ def left_out(material) -> Iterator[str]:
         socket = node.inputs.get(name)
         if socket is not None and (socket.is_linked or socket.default_value > 0):
             yield f"its {name.lower()} is left out"
+    normal, alpha = node.inputs["Normal"], node.inputs["Alpha"]
+    if normal.is_linked and relief_of(node) is None:
+        yield "what tilts its surface is left out"
+    if alpha.is_linked:
+        yield "its alpha is linked and counts as 1"
 
 
 def in_words(colour: tuple[float, ...]) -> str:

@@ -183,3 +183,32 @@ def test_an_image_in_the_shader_becomes_a_texture(scene, box, lamp, resolved, tm
     assert found.textures[texture].parameters["filename"].endswith("wood.png")
     use_spectra()
     assert material.rtb.reflectance_texture.image == image
+
+
+def test_relief_and_alpha_of_the_shader_are_taken_over(scene, box, lamp, read, resolved, tmp_path):
+    box()
+    lamp()
+    image = bpy.data.images.new("heights", 2, 2)
+    image.filepath_raw, image.file_format = str(tmp_path / "heights.png"), "PNG"
+    image.save()
+    material = bpy.data.materials["Paint"]
+    shader = principled(material, Alpha=0.75)
+    tree = material.node_tree
+    bump, source = (tree.nodes.new(f"ShaderNode{name}") for name in ("Bump", "TexImage"))
+    bump.inputs["Distance"].default_value, bump.inputs["Strength"].default_value = 0.02, 0.5
+    source.image = image
+    tree.links.new(source.outputs["Color"], bump.inputs["Height"])
+    tree.links.new(bump.outputs["Normal"], shader.inputs["Normal"])
+
+    def seen():
+        materials = resolved(scene).materials
+        mask = materials["Paint-material"]
+        bumpy = materials[mask.parameters["materialID"]]
+        return mask.parameters["opacity"], bumpy.model, bumpy.parameters["scale"]
+
+    assert seen() == (0.75, "bumpmap", pytest.approx(0.01))
+    use_spectra()
+    assert (material.rtb.detail, material.rtb.detail_image, material.rtb.opacity) == ("bumpmap", image, 0.75)
+    assert seen() == (0.75, "bumpmap", pytest.approx(0.01))
+    material.rtb.use_spectra, bump.invert = False, True
+    assert "what tilts its surface is left out" in "\n".join(read(scene).report)
