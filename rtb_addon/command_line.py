@@ -114,7 +114,8 @@ def montage(said: Namespace) -> int:
 def compare(said: Namespace) -> int:
     """Say how far two renderers' cubes lie apart."""
     made = []
-    for each in compare_renderers(said.folder, *said.renderers, said.conditions):
+    first, second = said.renderers
+    for each in compare_renderers(said.folder, first, second, said.conditions):
         made.append(each)
         if said.json:
             print(json.dumps(dict(zip(COLUMNS, each.numbers, strict=True))), flush=True)

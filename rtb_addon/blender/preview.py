@@ -113,8 +113,8 @@ def _paused() -> Iterator[None]:
 
 def _set(scene, thing, path: str, index: int, place: Place, value) -> None:
     """Set a property, once it is written down what it was, and what changes along with it."""
-    for *where, other in changed_along(place):
-        _keep(scene, *where, other)
+    for owner, name, part, other in changed_along(place):
+        _keep(scene, owner, name, part, other)
     kept = _keep(scene, thing, path, index, place)
     set_value(place, value)
     kept.shown, kept.shown_thing = _words(value_at(place))
