@@ -64,6 +64,7 @@ def vary(home: str, thing: str, path: str, index: int, cells: tuple[str, ...]) -
 def state(library) -> dict:
     """Return all that the open file holds, to the bit, but for the table and the mappings."""
     keeping, kept_values = library("blender.keeping"), library("blender.kept_values")
+    kept_values.forget_types()  # as keeping does: the extension may have been disabled in between
     return {
         (each.session_uid, *where): repr(value)
         for _, each in keeping._all()
