@@ -23,7 +23,7 @@ NAMES = [f"c{number:02}" for number in range(12)]
 def family(write_family):
     """Write a family of greys that the tracer renders in a good second each."""
     paints = {name: f"0.{number + 10}" for number, name in enumerate(NAMES)}
-    return write_family(paints, renderer="tracer", width=64, height=48, samples=192)
+    return write_family(paints, renderer="tracer", width=64, height=48, samples=1536)
 
 
 @pytest.fixture
