@@ -6,6 +6,7 @@ import queue
 import threading
 from collections.abc import Iterable, Iterator, Mapping
 from concurrent.futures import Future
+from contextlib import suppress
 from dataclasses import replace
 from importlib import import_module
 from pathlib import Path
@@ -71,7 +72,8 @@ class _Eye:
         self._ahead.put(file)
 
     def _look(self) -> None:
-        import_module("PIL.Image")  # which the montage needs at once when all is done
+        with suppress(ImportError, OSError):  # then the montage says so
+            import_module("PIL.Image")  # which it needs at once when all is done
         while True:
             file = self._ahead.get()
             try:
