@@ -14,9 +14,9 @@ import time
 
 import numpy as np
 
-from rtb_addon.scene import collada_meshes
 from rtb_addon.scene.adjustments import Adjustments
 from rtb_addon.scene.build import Placement, SceneBuilder
+from rtb_addon.scene.collada import meshes
 from rtb_addon.scene.document import Scene
 from rtb_addon.scene.resolve import SceneSettings, resolve
 
@@ -55,7 +55,7 @@ def many_triangles(count):
 
 
 def ours(data):
-    collada_meshes._known = collada_meshes._Known()  # as a new process has it
+    meshes._known = meshes._Known()  # as a new process has it
     scene = resolve(Scene.parse(data, "parent.dae"), Adjustments(), SceneSettings(), lambda name: None).scene
     return sum(len(shape.mesh.triangles) for shape in scene.shapes)
 

@@ -80,7 +80,7 @@ def _named(sentence: str) -> Culprit | None:
 
 def _by_id(sentence: str) -> Culprit | None:
     """Find what an id of the parent scene belongs to, as in Paint-material."""
-    from ..rtb_addon.scene.write_ids import clean
+    from ..rtb_addon.scene.collada.ids import clean
 
     homes = {"material": "materials", "light": "lights", "mesh": "objects", "camera": "objects"}
     for suffix, kind in _SUFFIXES.items():

@@ -9,12 +9,12 @@ from typing import Any
 import bpy
 import numpy as np
 
-from ..scene.collada_nodes import axes_up, metres_per_unit, visual_scene
-from ..scene.collada_sources import child, children, floats, text_of
-from ..scene.collada_transforms import local_matrix
+from ..scene.collada.ids import clean
+from ..scene.collada.nodes import axes_up, metres_per_unit, visual_scene
+from ..scene.collada.sources import child, children, floats, text_of
+from ..scene.collada.transforms import local_matrix
 from ..scene.document import Scene
 from ..scene.paths import Element, local_name
-from ..scene.write_ids import clean
 from .imported_things import make_camera, make_lamp, make_material, make_mesh
 
 # The transforms of a node as Blender and its exporter separate them, in their order.

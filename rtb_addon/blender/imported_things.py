@@ -7,10 +7,10 @@ import math
 import bpy
 import numpy as np
 
-from ..scene.collada_cameras import read_camera
-from ..scene.collada_colours import NO_EFFECT, Lamp, read_effect, read_lamp
-from ..scene.collada_meshes import Part, geometry_parts
-from ..scene.collada_sources import child
+from ..scene.collada.cameras import read_camera
+from ..scene.collada.colours import NO_EFFECT, Lamp, read_effect, read_lamp
+from ..scene.collada.meshes import Part, geometry_parts
+from ..scene.collada.sources import child
 from ..scene.document import Scene
 from ..scene.paths import Element
 from ..scene.render_scene import Film

@@ -10,9 +10,9 @@ from ..errors import RecipeError
 from ..recipe import Recipe
 from ..recipe.condition_scene import adjustments_of
 from ..scene.adjustments import Adjustments, MatrixEdit, PathEdit
+from ..scene.collada.ids import clean
+from ..scene.collada.write_numbers import number, numbers
 from ..scene.placement import placement_of
-from ..scene.write_ids import clean
-from ..scene.write_numbers import number, numbers
 
 
 def as_blocks(recipe: Recipe) -> tuple[str, dict[str, list[str]]]:

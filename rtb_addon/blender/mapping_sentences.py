@@ -147,7 +147,7 @@ def _gone(said: Written) -> str:
     homes = {"material": "materials", "light": "lights", "camera": "cameras", "mesh": "meshes"}
     if not name or kind not in homes or said.kind.lower() not in ("collada", "generic"):
         return ""
-    from ..scene.write_ids import clean
+    from ..scene.collada.ids import clean
 
     there = {clean(each.name) for each in getattr(bpy.data, homes[kind])}
     there |= {clean(each.name) for each in bpy.data.lights} if kind == "mesh" else set()  # area lamps

@@ -6,7 +6,8 @@ from dataclasses import dataclass, field
 
 import numpy as np
 
-from ..scene import primitives, write_collada
+from ..scene import primitives
+from ..scene.collada import write_libraries
 from ..scene.parent_document import ParentDocument
 from ..scene.placement import UNMOVED, Placement, placement_of
 from ..scene.surface import Corners, Surface
@@ -197,9 +198,9 @@ def collada_view(view: View):
     """Return a view as Collada says it; the height too where pixels are not square."""
     square = abs(view.pixel_aspect - 1) < 1e-9
     if view.projection == "perspective":
-        return write_collada.perspective(view.xfov, view.aspect, view.clip, None if square else view.yfov)
+        return write_libraries.perspective(view.xfov, view.aspect, view.clip, None if square else view.yfov)
     height = None if square else view.width / view.aspect
-    return write_collada.orthographic(view.width, view.aspect, view.clip, height)
+    return write_libraries.orthographic(view.width, view.aspect, view.clip, height)
 
 
 def _placement(local: FloatArray, own: Placement | None) -> Placement | FloatArray:

@@ -5,8 +5,8 @@ from __future__ import annotations
 import re
 from collections.abc import Mapping, Sequence
 
-from ..scene.write_ids import clean
-from ..scene.write_numbers import shortest
+from ..scene.collada.ids import clean
+from ..scene.collada.write_numbers import shortest
 from .table import Table
 
 

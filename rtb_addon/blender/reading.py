@@ -14,8 +14,8 @@ from ..conditions import Condition, Conditions
 from ..errors import RecipeError
 from ..recipe import Conventions, MontageOptions, RecipeOptions, write_recipe
 from ..recipe.options import section
+from ..scene.collada.write_numbers import shortest
 from ..scene.differences import Told, told_apart
-from ..scene.write_numbers import shortest
 from .baked import PARENT_COLUMNS, Remodel, at_condition, baked, merged, parent_files
 from .conditions import IMAGE_NAME
 from .evaluation import as_rendered

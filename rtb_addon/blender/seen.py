@@ -9,10 +9,10 @@ from typing import Literal
 import numpy as np
 
 from ..errors import RecipeError
+from ..scene.collada.ids import Ids
+from ..scene.collada.write_numbers import shortest
 from ..scene.placement import Placement
 from ..scene.surface import Surface
-from ..scene.write_ids import Ids
-from ..scene.write_numbers import shortest
 from ..spectra import FloatArray, Unit
 from . import lights
 from .cameras import View, lens_of, not_round, view_of

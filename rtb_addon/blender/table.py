@@ -8,8 +8,8 @@ from pathlib import Path
 
 from ..conditions import Condition, Conditions, format_conditions, parse_conditions
 from ..errors import RecipeError
-from ..scene.write_ids import clean
-from ..scene.write_numbers import shortest
+from ..scene.collada.ids import clean
+from ..scene.collada.write_numbers import shortest
 from ..spectra import Spectrum, Unit
 from ..spectra.files import spd_text
 from ..spectra.spoken import spectrum_from

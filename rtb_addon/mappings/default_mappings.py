@@ -7,7 +7,7 @@ from collections.abc import Iterable, Iterator, Sequence
 from itertools import cycle
 
 from ..errors import RecipeError
-from ..scene.collada_colours import read_lamp
+from ..scene.collada.colours import read_lamp
 from ..scene.document import Scene
 from ..scene.paths import Element
 

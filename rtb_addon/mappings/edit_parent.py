@@ -7,8 +7,8 @@ from typing import NamedTuple
 import numpy as np
 
 from ..scene.adjustments import Edit, MatrixEdit, PathEdit, Removal
-from ..scene.collada_colours import read_lamp
-from ..scene.collada_transforms import local_matrix
+from ..scene.collada.colours import read_lamp
+from ..scene.collada.transforms import local_matrix
 from ..scene.paths import Element, numbers_in
 from ..spectra import FloatArray
 from ..spectra.text import format_number

@@ -9,7 +9,7 @@ import numpy as np
 
 from ..errors import at
 from ..scene.adjustments import Adjustments, Edit, NativeLine, NeutralObject, Property, Removal
-from ..scene.collada_colours import read_lamp
+from ..scene.collada.colours import read_lamp
 from ..scene.paths import Element, numbers_in
 from ..spectra.text import format_number
 from .changes import Change, ChangedProperty

@@ -5,8 +5,8 @@ from __future__ import annotations
 import numpy as np
 from numpy.typing import ArrayLike
 
-from ..scene.collada_transforms import look_at as standing
-from ..scene.collada_transforms import rotate
+from ..scene.collada.transforms import look_at as standing
+from ..scene.collada.transforms import rotate
 from ..spectra import FloatArray
 
 

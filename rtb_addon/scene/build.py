@@ -7,11 +7,12 @@ from dataclasses import replace
 import numpy as np
 from numpy.typing import ArrayLike
 
-from . import primitives, write_collada
+from . import primitives
+from .collada import write_libraries
+from .collada.write_elements import Colour
 from .parent_document import ParentDocument, Where
 from .placement import UNMOVED, Placement
 from .surface import IntArray, Surface, corners
-from .write_collada import Colour
 
 WHITE = (1.0, 1.0, 1.0)
 GREY = (0.8, 0.8, 0.8)
@@ -171,9 +172,9 @@ class SceneBuilder(ParentDocument):
         width : of a parallel view [scene units], which has no angle and no lens; None for a perspective
         """
         if width is None:
-            view = write_collada.perspective(xfov, aspect, clip)
+            view = write_libraries.perspective(xfov, aspect, clip)
         else:
-            view = write_collada.orthographic(width, aspect, clip)
+            view = write_libraries.orthographic(width, aspect, clip)
         node = self.node(name, placement, parent)
         self.use_eye(node, self.eye(name, view, shift, lens))
         return node

@@ -13,7 +13,7 @@ from urllib.parse import unquote
 from ..errors import RecipeError, at, choices
 from .adjustments import Adjustments, Edit, Remark
 from .archives import is_archive, read_archive
-from .collada_text import utf8
+from .collada.text import utf8
 from .edits import apply
 from .paths import Element, local_name, parse_path, read
 

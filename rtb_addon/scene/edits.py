@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from ..spectra.text import format_number
 from .adjustments import Edit, MatrixEdit, PathEdit
-from .collada_transforms import TRANSFORMS
+from .collada.transforms import TRANSFORMS
 from .paths import Element, find_id, local_name, parse_path, write
 
 

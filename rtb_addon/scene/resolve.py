@@ -10,9 +10,9 @@ from typing import Literal, NamedTuple
 from ..errors import RecipeError, at, choices
 from ..spectra import Spectrum
 from .adjustments import Adjustments, NativeLine
-from .collada_cameras import read_camera
-from .collada_left_out import left_out
-from .collada_nodes import Instance, instances, metres_per_unit
+from .collada.cameras import read_camera
+from .collada.left_out import left_out
+from .collada.nodes import Instance, instances, metres_per_unit
 from .declarations import declarations
 from .document import Scene
 from .render_scene import Camera, Film, Integrator, Light, RenderScene, Shape

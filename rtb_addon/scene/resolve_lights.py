@@ -10,9 +10,9 @@ import numpy as np
 from ..errors import at, choices
 from ..spectra import Spectrum, Unit
 from ..spectra.promotion import promoted
-from .collada_cameras import rigid
-from .collada_colours import Lamp, read_lamp
-from .collada_nodes import Instance
+from .collada.cameras import rigid
+from .collada.colours import Lamp, read_lamp
+from .collada.nodes import Instance
 from .declarations import Declaration, parameters_of
 from .document import Scene
 from .render_scene import Light

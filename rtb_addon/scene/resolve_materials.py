@@ -12,9 +12,9 @@ from ..spectra import Spectrum, Unit
 from ..spectra.donaldson import read_donaldson
 from ..spectra.promotion import promoted
 from .adjustments import Remark
-from .collada_colours import NO_EFFECT, Effect, read_effect
-from .collada_sources import child
-from .collada_textures import image_file
+from .collada.colours import NO_EFFECT, Effect, read_effect
+from .collada.sources import child
+from .collada.textures import image_file
 from .declarations import Declaration, parameters_of
 from .document import Scene
 from .render_scene import Material, Texture, TextureUse, Value

@@ -10,9 +10,9 @@ import numpy as np
 
 from ..errors import at
 from ..spectra import FloatArray, Spectrum
-from .collada_meshes import Part, geometry_parts, left_out
-from .collada_nodes import Instance
-from .collada_textures import uv_sets
+from .collada.meshes import Part, geometry_parts, left_out
+from .collada.nodes import Instance
+from .collada.textures import uv_sets
 from .document import Scene
 from .paths import local_name
 from .render_scene import Mesh, Shape

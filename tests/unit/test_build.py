@@ -8,11 +8,11 @@ from hypothesis.extra import numpy as arrays
 from lxml import etree
 
 from rtb_addon.scene.build import Placement, SceneBuilder
+from rtb_addon.scene.collada.ids import Ids, clean
+from rtb_addon.scene.collada.write_numbers import floats, indices, shortest
 from rtb_addon.scene.placement import placement_of
 from rtb_addon.scene.primitives import disk, plane, sphere
 from rtb_addon.scene.surface import corners, distinct, distinct_at
-from rtb_addon.scene.write_ids import Ids, clean
-from rtb_addon.scene.write_numbers import floats, indices, shortest
 
 # Children of each element in the order that Collada 1.4.1's schema asks for.
 ORDER = {

@@ -7,7 +7,7 @@ from hypothesis import strategies as st
 from lxml import etree
 
 from rtb_addon.scene.build import SceneBuilder
-from rtb_addon.scene.collada_meshes import geometry_parts, left_out, read_geometry
+from rtb_addon.scene.collada.meshes import geometry_parts, left_out, read_geometry
 from rtb_addon.scene.document import Scene
 from rtb_addon.scene.triangulation import triangulate
 

@@ -7,9 +7,9 @@ from collections.abc import Callable
 
 import numpy as np
 
-from ..spectra import FloatArray
-from .collada_sources import floats
-from .paths import Element, local_name
+from ...spectra import FloatArray
+from ..paths import Element, local_name
+from .sources import floats
 
 
 def local_matrix(node: Element) -> FloatArray:

@@ -7,12 +7,12 @@ from typing import NamedTuple
 
 import numpy as np
 
-from ..errors import RecipeError, at
-from ..spectra import FloatArray
-from .collada_sources import child, children, text_of
-from .collada_transforms import local_matrix
-from .document import Scene
-from .paths import Element, local_name
+from ...errors import RecipeError, at
+from ...spectra import FloatArray
+from ..document import Scene
+from ..paths import Element, local_name
+from .sources import child, children, text_of
+from .transforms import local_matrix
 
 # What becomes of X, Y, Z of a document when Z is up, by its up_axis.
 _UP = {

@@ -5,8 +5,8 @@ from __future__ import annotations
 from collections import Counter
 from collections.abc import Iterator
 
-from .document import Scene
-from .paths import Element, local_name
+from ..document import Scene
+from ..paths import Element, local_name
 
 # Libraries that RenderToolbox3 dropped, and what they hold.
 _DROPPED = {

@@ -4,9 +4,9 @@ from __future__ import annotations
 
 from typing import NamedTuple
 
-from .collada_sources import child, extra_child, floats, number
-from .collada_textures import Picture, picture_in
-from .paths import Element, local_name
+from ..paths import Element, local_name
+from .sources import child, extra_child, floats, number
+from .textures import Picture, picture_in
 
 Colour = tuple[float, float, float]
 _SHADINGS = ("phong", "lambert", "blinn", "constant")

@@ -7,12 +7,12 @@ from collections import OrderedDict
 from collections.abc import Callable, Iterator, Mapping
 from typing import NamedTuple
 
-from ..spectra import FloatArray
-from .collada_faces import read_faces
-from .collada_sources import children, read_source
-from .paths import Element, local_name
-from .render_scene import Mesh
-from .welding import welded
+from ...spectra import FloatArray
+from ..paths import Element, local_name
+from ..render_scene import Mesh
+from ..welding import welded
+from .faces import read_faces
+from .sources import children, read_source
 
 _DRAWN = ("triangles", "polylist", "polygons", "tristrips", "trifans")
 _LINES = ("lines", "linestrips")

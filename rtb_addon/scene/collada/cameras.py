@@ -6,10 +6,10 @@ from typing import Literal
 
 import numpy as np
 
-from ..spectra import FloatArray
-from .collada_sources import PROFILE, child, extra_child, number
-from .paths import Element, local_name
-from .render_scene import Camera, Film
+from ...spectra import FloatArray
+from ..paths import Element, local_name
+from ..render_scene import Camera, Film
+from .sources import PROFILE, child, extra_child, number
 
 Window = tuple[float, float, float, float]
 _CLIP = (1e-3, 1e5)

@@ -4,8 +4,8 @@ from __future__ import annotations
 
 from typing import NamedTuple
 
-from .collada_sources import child, children, text_of
-from .paths import Element, local_name
+from ..paths import Element, local_name
+from .sources import child, children, text_of
 
 
 class Picture(NamedTuple):

@@ -6,12 +6,12 @@ from typing import NamedTuple
 
 import numpy as np
 
-from ..spectra import FloatArray
-from .collada_sources import child, children, integers
-from .holes import bridged
-from .paths import Element, local_name
-from .render_scene import IntArray
-from .triangulation import triangulate
+from ...spectra import FloatArray
+from ..holes import bridged
+from ..paths import Element, local_name
+from ..render_scene import IntArray
+from ..triangulation import triangulate
+from .sources import child, children, integers
 
 
 class Faces(NamedTuple):

@@ -6,9 +6,9 @@ import warnings
 
 import numpy as np
 
-from ..spectra import FloatArray
-from .paths import Element, local_name
-from .render_scene import IntArray
+from ...spectra import FloatArray
+from ..paths import Element, local_name
+from ..render_scene import IntArray
 
 # What Collada calls the parts of a document that are ours alone.
 PROFILE = "RenderToolbox"
