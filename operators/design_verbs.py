@@ -7,11 +7,11 @@ import bpy
 from ..rtb_addon.blender.table_texts import HOW, fill
 from .table_verbs import TableVerb
 
-WIDTH = 340  # of the dialogs [pixels at scale 1]
-
 
 class DesignVerb(TableVerb):
     """An operator with a dialog that puts values of a variable into the table."""
+
+    width = 340  # of the dialog [pixels at scale 1]
 
     variable: bpy.props.StringProperty(
         name="Variable", description="The column that is filled; a new one if there is none of that name"
@@ -21,10 +21,10 @@ class DesignVerb(TableVerb):
     def invoke(self, context, event):
         settings = context.scene.rtb
         active = settings.variables[settings.active_variable : settings.active_variable + 1]
-        self.begin(active[0].name if active else "variable")
-        return context.window_manager.invoke_props_dialog(self, width=WIDTH, confirm_text="Fill In")
+        self.begin(context, active[0].name if active else "variable")
+        return context.window_manager.invoke_props_dialog(self, width=self.width, confirm_text="Fill In")
 
-    def begin(self, variable: str) -> None:
+    def begin(self, context, variable: str) -> None:
         """Propose the active variable."""
         self.variable = variable
 

@@ -19,7 +19,7 @@ class RTB_OT_fill_grid(DesignVerb, bpy.types.Operator):
     )
     fields = ("values", "how")
 
-    def begin(self, variable):
+    def begin(self, context, variable):
         self.values = f"{variable} = 0.2, 0.5, 0.8"
 
     def edit(self, context):

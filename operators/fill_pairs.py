@@ -19,7 +19,7 @@ class RTB_OT_fill_pairs(DesignVerb, bpy.types.Operator):
     object: bpy.props.StringProperty(name="Object", description="That is there in one of each pair")
     fields = ("variable", "how")
 
-    def begin(self, variable):
+    def begin(self, context, variable):
         active = bpy.context.view_layer.objects.active
         self.object = "" if active is None else active.name
         self.variable, self.how = f"with {self.object}".strip(), "CROSS"

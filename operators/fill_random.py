@@ -25,7 +25,7 @@ class RTB_OT_fill_random(DesignVerb, bpy.types.Operator):
     sequence: bpy.props.EnumProperty(name="Sequence", items=SEQUENCES)
     fields = ("ranges", "how", "count", "seed", "sequence")
 
-    def begin(self, variable):
+    def begin(self, context, variable):
         self.ranges = f"{variable} = 0 1"
 
     def edit(self, context):

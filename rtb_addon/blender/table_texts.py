@@ -10,7 +10,7 @@ from .migration import kind_of
 from .table_edits import add_rows, cells_of, columns
 
 HOW = (
-    ("ADD", "New Rows", "A new row for each value, else like the active row", 1),
+    ("ADD", "New Rows", "A new row for each value, else like the active row, in the place of a single unnamed one", 1),
     ("CROSS", "Every Combination", "Every row there is with each value: a factorial design", 2),
     ("FILL", "Rows There Are", "Down the rows there are, from the first", 3),
 )
@@ -104,6 +104,8 @@ def _add(settings, places, rows, names) -> None:
     there = len(settings.conditions)
     pattern = cells_of(settings, settings.conditions[settings.active_condition]) if there else []
     pattern = pattern or [""] * len(settings.variables)
+    if there == 1 and not settings.conditions[0].name:
+        settings.conditions.clear()  # what the first variable began the table with, and was never named
     add_rows(settings, [(n, _with(pattern, places, row)) for row, n in zip(rows, names, strict=True)])
 
 

@@ -154,13 +154,30 @@ def test_a_file_that_is_no_table_is_refused_with_its_name(settings, tmp_path):
 
 
 def test_marked_patches_become_rows_of_their_names(empty):
-    patches = {f"BabelColor Average/{name}" for name in ("blue", "dark skin")}
-    bpy.ops.rtb.fill_from_library(variable="paint", group="BabelColor Average", marked=patches)
+    marked = [number in (0, 12) for number in range(32)]
+    bpy.ops.rtb.fill_from_library(variable="paint", group="BabelColor Average", marked=marked)
     assert table(empty) == [
         ("dark skin", "BabelColor Average/dark skin"),
         ("blue", "BabelColor Average/blue"),
     ]
     assert "did you mean" in sentence(bpy.ops.rtb.fill_from_library, variable="paint", names="D64")
+
+
+def test_new_rows_take_the_place_of_a_single_one_that_was_never_named(empty):
+    bpy.ops.rtb.add_variable(name="paint")
+    assert table(empty) == [("", "")]
+    bpy.ops.rtb.fill_range(variable="paint", first=0.1, last=0.2, count=2)
+    assert table(empty) == [("paint-1", "0.1"), ("paint-2", "0.2")]
+
+
+def test_a_group_of_more_spectra_than_can_be_marked_at_once_comes_in_parts(empty, monkeypatch, module):
+    verb = module("operators.fill_from_library")
+    monkeypatch.setattr(verb, "MOST", 10)
+    verb.forget()
+    marked = [number == 2 for number in range(32)]
+    bpy.ops.rtb.fill_from_library(variable="paint", group="BabelColor Average from 11", marked=marked)
+    assert column(empty, "paint") == ["BabelColor Average/blue"]
+    verb.forget()
 
 
 def test_a_range_adds_rows_like_the_active_one(settings):
