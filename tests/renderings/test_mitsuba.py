@@ -13,7 +13,7 @@ from rtb_addon.renderers.interface import RenderOptions
 from rtb_addon.renderers.mitsuba import llvm, renderer, session
 from rtb_addon.renderers.mitsuba.native import read_native
 from rtb_addon.renderers.mitsuba.one_hot import one_hot
-from rtb_addon.renderers.mitsuba.spectrum_xml import element
+from rtb_addon.renderers.mitsuba.xml.spectrum import element
 from rtb_addon.scene.render_scene import Camera, Shape
 from rtb_addon.spectra import Bands, Spectrum
 from tests.renderings.mitsuba_scenes import (

@@ -12,11 +12,11 @@ from hypothesis import strategies as st
 from rtb_addon.errors import RecipeError, RenderingError
 from rtb_addon.renderers.interface import NativeLine
 from rtb_addon.renderers.mitsuba import renderer
-from rtb_addon.renderers.mitsuba.names import Names
 from rtb_addon.renderers.mitsuba.native import read_native
 from rtb_addon.renderers.mitsuba.one_hot import one_hot
 from rtb_addon.renderers.mitsuba.renderer import check_pixels
-from rtb_addon.renderers.mitsuba.spectrum_xml import format_spectrum, parse_spectrum, properties, range_for
+from rtb_addon.renderers.mitsuba.xml.names import Names
+from rtb_addon.renderers.mitsuba.xml.spectrum import format_spectrum, parse_spectrum, properties, range_for
 from rtb_addon.scene.render_scene import Light, Material, Shape, TextureUse
 from rtb_addon.spectra import FULL_RANGE, Bands, Spectrum
 from tests.renderings.mitsuba_scenes import FLOOR, INTENSITY, REFLECTANCE, at, lamp, scene, square

@@ -14,10 +14,10 @@ import numpy as np
 
 from ...spectra import Bands, FloatArray
 from .band_parts import divided
-from .lobes import expanded, open_and_named, refuse_tints, spectra_of
+from .material_trees import expanded, open_and_named, refuse_tints, spectra_of
 from .native import Native
 from .one_hot import OneHotScene, bare, take_emitters
-from .spectrum_xml import element, parse_spectrum, regular
+from .xml.spectrum import element, parse_spectrum, regular
 
 
 def all_bands(native: Native) -> OneHotScene:

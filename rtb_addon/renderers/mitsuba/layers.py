@@ -24,8 +24,9 @@ from .camera_rays import CameraRays
 from .loaded import LoadedScene
 from .lobe_path import scatter
 from .native import Native
+from .object_numbers import by_number, numbers_of
 from .passes import Picture, render_passes, sums_of, take
-from .tables import Tables, number_of, numbers_of
+from .tables import Tables
 
 # Directions that tell how much of the light from the camera a surface would scatter.
 _DIRECTIONS = 256
@@ -130,12 +131,7 @@ _LAYERS: Mapping[str, Callable[[_Seen], NDArray]] = {
 
 
 def _marks(shapes: Mapping[str, Any], marks: Mapping[str, int]) -> Any:
-    """Return a table from Mitsuba's numbers of shapes to marks of ours; 0 where there is none."""
-    numbers = {name: number_of(mi.ShapePtr(shape)) for name, shape in shapes.items()}
-    table = np.zeros(max(numbers.values(), default=0) + 1, np.uint32)
-    for name, number in numbers.items():
-        table[number] = marks.get(name, 0)
-    return mi.UInt32(table)
+    return by_number({name: mi.ShapePtr(shape) for name, shape in shapes.items()}, marks)
 
 
 def _marked(table: Any, si: Any) -> Any:

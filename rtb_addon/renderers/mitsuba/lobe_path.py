@@ -33,6 +33,7 @@ def path_radiance(scene, tables: Tables, sampler, ray, worth, limits) -> list:
         mi.UInt32 in memory; None for the second: they never do
     """
     depth, roulette = limits
+    lights = tables.lights
     radiance = [mi.Float(0) for _ in range(tables.padded_bands)]
     # The throughput is the product of these two: each band's own part, and what all bands share.
     spectral = [mi.Float(1) for _ in range(tables.padded_bands)]
@@ -51,27 +52,27 @@ def path_radiance(scene, tables: Tables, sampler, ray, worth, limits) -> list:
         seen = mi.DirectionSample3f(scene, si, before)
         light_pdf = scene.pdf_emitter_direction(before, seen, active & ~before_delta)
         share = dr.select(before_delta, 1, before_pdf / (before_pdf + light_pdf))
-        row = tables.emitter_row(emitter, active)
-        glow = scalar * share * emitter.eval(si, active)[0] * tables.beam(row, -ray.d, active)
+        row = lights.row(emitter, active)
+        glow = scalar * share * emitter.eval(si, active)[0] * lights.beam(row, -ray.d, active)
         shines = active & (glow != 0)
-        radiance = _add(radiance, spectral, tables.emission(row, ray.d, shines), dr.select(shines, glow, 0))
-        if dr.hint(tables.suns > 0, mode="scalar"):
+        radiance = _add(radiance, spectral, lights.emission(row, ray.d, shines), dr.select(shines, glow, 0))
+        if dr.hint(lights.suns > 0, mode="scalar"):
             missed = active & ~si.is_valid() & before_delta
-            radiance = _add_suns(tables, ray, radiance, spectral, dr.select(missed, scalar, 0))
+            radiance = _add_suns(lights, ray, radiance, spectral, dr.select(missed, scalar, 0))
 
         # One light sample, and one sample of the material.
         going = active & si.is_valid() & (bounce < depth)
         bsdf = si.bsdf()
         lit = going & mi.has_flag(bsdf.flags(), mi.BSDFFlags.Smooth)
-        found, weight = sample_light(scene, tables, sampler, si, lit)
+        found, weight = sample_light(scene, lights, sampler, si, lit)
         lit &= found.pdf != 0
         towards = si.to_local(found.d)
         draws = sampler.next_1d(), sampler.next_2d()
         value, pdf, turn, onward = meet(tables, bsdf, si, towards, draws, going)
         share = dr.select(found.delta, 1, found.pdf / (found.pdf + pdf))
-        row = tables.emitter_row(found.emitter, lit)
-        glow = dr.select(lit, scalar * share * weight[0] * tables.beam(row, -found.d, lit), 0)
-        emission = tables.emission(row, found.d, lit)
+        row = lights.row(found.emitter, lit)
+        glow = dr.select(lit, scalar * share * weight[0] * lights.beam(row, -found.d, lit), 0)
+        emission = lights.emission(row, found.d, lit)
         seen_lit, spectral, scalar, glow = scatter(
             tables, spectral, scalar, (bsdf, si, going), (towards, value, glow), (turn.wo, onward)
         )
@@ -88,17 +89,17 @@ def path_radiance(scene, tables: Tables, sampler, ray, worth, limits) -> list:
             long = bounce >= roulette
             active &= ~long | (sampler.next_1d() < _SURVIVAL)
             scalar = dr.select(long, scalar / _SURVIVAL, scalar)
-    return tables.in_the_end(radiance)
+    return lights.in_the_end(radiance)
 
 
-def sample_light(scene, tables, sampler, si, active):
+def sample_light(scene, lights, sampler, si, active):
     """Return a direction to a light that nothing hides, and the emitter's coefficient over its density."""
-    if not tables.suns:
+    if not lights.suns:
         return scene.sample_emitter_direction(si, sampler.next_2d(), True, active)
     found, weight = scene.sample_emitter_direction(si, sampler.next_2d(), False, active)
     u, v = sampler.next_2d()
     # A sun is a direction to Mitsuba; ours is anywhere in the disc around it, all places alike.
-    height = u * tables.narrowness(tables.emitter_row(found.emitter, active), active)
+    height = u * lights.narrowness(lights.row(found.emitter, active), active)
     radius = dr.sqrt(height * (2 - height))
     sine, cosine = dr.sincos(v * dr.two_pi)
     aimed = mi.Frame3f(found.d).to_world(mi.Vector3f(radius * cosine, radius * sine, 1 - height))
@@ -152,10 +153,10 @@ def _with_metals(tables, lobes, row, cosines, active):
     ]
 
 
-def _add_suns(tables, ray, radiance, spectral, weight):
+def _add_suns(lights, ray, radiance, spectral, weight):
     """Add the discs of the suns where a ray that saw nothing else meets them."""
-    for index in range(tables.suns):
-        hit, disc = tables.sun(index, ray.d)
+    for index in range(lights.suns):
+        hit, disc = lights.sun(index, ray.d)
         radiance = _add(radiance, spectral, disc, dr.select(hit, weight, 0))
     return radiance
 

@@ -16,15 +16,15 @@ it is a lobe of its own, a white one.
 
 from __future__ import annotations
 
-import copy
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from pathlib import Path
 from xml.etree import ElementTree as Xml
 
 from ...errors import RenderingError
 from ...spectra import Spectrum
-from .spectrum_xml import element, parse_spectrum, properties
+from .material_trees import expanded, is_given, open_and_named, refuse_tints, spectra_of
+from .xml.spectrum import element, parse_spectrum, properties
 
 MOST_LOBES = 3
 # Materials that are exactly linear in their spectra, which is what makes the lobe path exact, and the spectra
@@ -47,8 +47,8 @@ _LINEAR: Mapping[str, Mapping[str, float]] = {
     "mask": {},
 }
 
-# What makes the principled material more than linear, by the square root of its colour, or by the luminance.
-_ROOT, _LUMINANCE = ("spec_trans",), ("spec_tint", "sheen_tint")
+# What makes the principled material more than linear, by the square root of its colour.
+_ROOT = ("spec_trans",)
 
 
 class BeyondLobes(RenderingError):
@@ -63,7 +63,7 @@ class PictureUse:
     Parameters
     ----------
     file, gamma : of the picture
-    wrap : what lies beyond its edges, a word of textures_xml.ALL_WRAPS
+    wrap : what lies beyond its edges, a word of xml.textures.ALL_WRAPS
     nearest : whether texels are squares; else they fade into each other
     place : scale of U and of V, offset of U and of V
     """
@@ -102,28 +102,6 @@ def take_lobes(root: Xml.Element) -> dict[str, list[Lobe]]:
     return {id: _take(id, node) for id, node in expanded(root).items()}
 
 
-def expanded(root: Xml.Element) -> dict[str, Xml.Element]:
-    """Return the materials of a scene by id, each with all that it is made of in it."""
-    named = {node.get("id", ""): node for node in root.iter("bsdf") if node.get("id")}
-    for node in named.values():
-        _expand(node, named, (node.get("id", ""),))
-    return named
-
-
-def _expand(node: Xml.Element, named: Mapping[str, Xml.Element], above: tuple[str, ...]) -> None:
-    """Put copies in the place of references: a spectrum is not the same lobe in every material."""
-    for index, child in enumerate(list(node)):
-        inside = above
-        if child.tag == "ref" and (id := child.get("id", "")) in named:
-            if id in above:
-                raise RenderingError(f"the native scene's {id} refers to itself, give it another material")
-            node[index] = child = copy.deepcopy(named[id])
-            del child.attrib["id"]
-            inside = (*above, id)
-        if child.tag == "bsdf":
-            _expand(child, named, inside)
-
-
 def _take(id: str, material: Xml.Element) -> list[Lobe]:
     refuse_tints(id, material)
     for node in list(material.iter("bsdf")):
@@ -145,15 +123,6 @@ def _take(id: str, material: Xml.Element) -> list[Lobe]:
     for parent, index, name, key in places:
         parent[index] = one_hot_colour(name, order.index(key))
     return [*(found[key] for key in order), *constant]
-
-
-def open_and_named(material: Xml.Element) -> None:
-    """Turn masks into blends with nothing, and all blends into those of our plugin."""
-    for node in list(material.iter("bsdf")):
-        if node.get("type") == "mask":
-            _open(node)
-        if node.get("type") == "blendbsdf":
-            _name_parts(node)
 
 
 def in_slots(lobes: Sequence[Lobe], count: int) -> list[Lobe | None]:
@@ -182,17 +151,13 @@ def picture_use(node: Xml.Element) -> PictureUse:
 def _complete(id: str, node: Xml.Element) -> None:
     """Refuse what is not linear, and write out the spectra that Mitsuba would fill in as white or grey."""
     kind = node.get("type", "")
-    given = {child.get("name") for child in node if _is_given(child)}
+    given = {child.get("name") for child in node if is_given(child)}
     if kind not in _LINEAR or (kind == "principled" and given.intersection(_ROOT)):
         raise BeyondLobes(f"the native scene's {id} is a {kind}, make it one of {', '.join(_LINEAR)}")
     there = {child.get("name") for child in node}
     for name, value in _LINEAR[kind].items():
         if name not in there:
             node.append(element("spectrum", "uniform", name=name, value=value))
-
-
-def _is_given(child: Xml.Element) -> bool:
-    return child.tag != "float" or float(child.get("value", 0)) != 0
 
 
 def _take_index(id: str, node: Xml.Element) -> tuple[Xml.Element, ...]:
@@ -210,48 +175,6 @@ def _take_index(id: str, node: Xml.Element) -> tuple[Xml.Element, ...]:
         node.remove(child)
     node.append(Xml.Element("string", name="material", value="none"))
     return taken
-
-
-def _open(mask: Xml.Element) -> None:
-    """
-    Turn a mask into a blend with nothing.
-
-    What a mask lets through has all colours at once, which no lobe has; glass that does not refract has one.
-    """
-    mask.set("type", "blendbsdf")
-    for child in mask:
-        if child.get("name") == "opacity":
-            child.set("name", "weight")
-    nothing = element("bsdf", "thindielectric", int_ior=1.0, ext_ior=1.0)
-    for name in ("specular_reflectance", "specular_transmittance"):
-        nothing.append(element("spectrum", "uniform", name=name, value=1.0))
-    inner = next(index for index, child in enumerate(mask) if child.tag == "bsdf")
-    mask.insert(inner, nothing)
-
-
-def _name_parts(blend: Xml.Element) -> None:
-    """Make a blend one of our plugin, which has mirrors right (see blend.py)."""
-    blend.set("type", "fairblend")
-    for child, name in zip(blend.findall("bsdf"), ("first", "second"), strict=True):
-        child.set("name", name)
-
-
-def refuse_tints(id: str, material: Xml.Element) -> None:
-    """Refuse what Mitsuba makes of the luminance of a spectrum, which four bands do not have."""
-    for node in material.iter("bsdf"):
-        tints = [child.get("name") for child in node if child.get("name") in _LUMINANCE and _is_given(child)]
-        if tints:
-            raise RenderingError(f"the native scene's {id} has a {tints[0]}, leave it at 0")
-
-
-def spectra_of(id: str, material: Xml.Element) -> Iterator[tuple[Xml.Element, int, Xml.Element]]:
-    """Yield the spectra and pictures of a material, each with what holds it and where it stands there."""
-    for parent in list(material.iter()):
-        for index, child in enumerate(list(parent)):
-            if child.tag == "rgb" or (child.tag == "spectrum" and not child.get("type")):
-                raise RenderingError(f"the native scene's {id} has a colour, write a regular spectrum")
-            if child.tag == "spectrum" or child.get("type") == "picture":
-                yield parent, index, child
 
 
 def _content(spectrum: Xml.Element) -> bytes:

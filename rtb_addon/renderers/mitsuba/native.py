@@ -14,7 +14,7 @@ from ...errors import RenderingError
 from ...scene.render_scene import Crop
 from ...spectra import BandKind, Bands
 from ..filters import FILTERS
-from .spectrum_xml import properties
+from .xml.spectrum import properties
 
 
 @dataclass(frozen=True, eq=False)

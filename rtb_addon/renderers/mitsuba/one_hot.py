@@ -16,10 +16,10 @@ import numpy as np
 
 from ...errors import RenderingError
 from ...spectra import FloatArray, Spectrum
-from .lights_xml import ball
 from .lobes import Lobe, PictureUse, one_hot_colour, picture_use, take_lobes
 from .native import Native
-from .spectrum_xml import element, parse_spectrum, properties
+from .xml.lights import ball
+from .xml.spectrum import element, parse_spectrum, properties
 
 
 @dataclass(frozen=True, eq=False)

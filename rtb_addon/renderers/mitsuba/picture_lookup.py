@@ -11,7 +11,7 @@ from typing import Any, NamedTuple
 import drjit as dr
 import mitsuba as mi
 
-from .textures_xml import ALL_WRAPS, AROUND
+from .xml.textures import ALL_WRAPS, AROUND
 
 _MIRROR, _CLAMP, _AROUND = (ALL_WRAPS.index(word) for word in ("mirror", "clamp", AROUND))
 
@@ -23,7 +23,7 @@ class Layout(NamedTuple):
     Parameters
     ----------
     first, width, height : of its texels, row 0 on top
-    wrap : number of its word in textures_xml.ALL_WRAPS
+    wrap : number of its word in xml.textures.ALL_WRAPS
     nearest : 1 takes the nearest texel alone, 0 the four around
     place : scale of U and of V, offset of U and of V
     """

@@ -22,11 +22,12 @@ from ..pictures import Picture, read_picture
 from .arrays import floats
 from .band_parts import by_part, divided, parts_of
 from .lobes import Lobe, PictureUse
+from .packets import PACKET, fetch
 from .picture_lookup import Layout, taps
-from .textures_xml import ALL_WRAPS
+from .xml.textures import ALL_WRAPS
 
-# Channels that are kept as they are: a packet that memory gives at once.
-_FEW = 4
+# Channels that are kept as they are.
+_FEW = PACKET
 # Numbers for each lobe: first texel, width, height, wrap, nearest, then none, few or many channels as 0, 1 or
 # 2, and the row where the bands of few channels begin.
 _NUMBERS, _KIND, _ROW = 8, 5, 6
@@ -100,7 +101,7 @@ class Pictures:
             row += self._part * _FEW
         total: list[Any] = [mi.Float(0)] * len(plain)
         for k in range(_FEW):
-            weights = _bands(self._weights, row + k, self._packets)
+            weights = fetch(self._weights, row + k, self._packets)
             total = [
                 dr.fma(channels[k], weight, so_far) for weight, so_far in zip(weights, total, strict=True)
             ]
@@ -109,7 +110,7 @@ class Pictures:
     def _of_bands(self, lobe, uv, plain: list) -> list:
         total: list[Any] = [mi.Float(0)] * len(plain)
         for texel, share in self._around(lobe, uv):
-            values = _bands(self._many_texels, texel, self._packets)
+            values = fetch(self._many_texels, texel, self._packets)
             total = [dr.fma(share, value, so_far) for value, so_far in zip(values, total, strict=True)]
         return total
 
@@ -166,11 +167,6 @@ def _few_weights(weights: FloatArray) -> FloatArray:
     """Return the (parts, 4, bands) weights of few channels."""
     few = np.swapaxes(weights[:_FEW], 0, 1)
     return np.pad(few, ((0, 0), (0, _FEW - few.shape[1]), (0, 0)))
-
-
-def _bands(table, row, packets: int) -> list:
-    found: list[Any] = [dr.gather(mi.Vector4f, table, row * packets + k) for k in range(packets)]
-    return [packet[k] for packet in found for k in range(_FEW)]
 
 
 def _table(blocks) -> Any:

@@ -3,7 +3,7 @@ A RenderScene as stock Mitsuba 3 XML.
 
 Plain Mitsuba loads and renders it in its spectral variants: path integrator, specfilm with one unit-integral
 band per channel, spectra as tables. What stock Mitsuba has no word for stands in ``<default>`` elements,
-which it reads and ignores, and a comment says so; our own renderer reads them (see swap.py).
+which it reads and ignores, and a comment says so; our own renderer reads them (see native.py).
 """
 
 from __future__ import annotations
@@ -20,13 +20,13 @@ from ...scene.render_scene import Integrator, Mesh, RenderScene, Shape
 from ..interface import Extras
 from ..native_lines import scene_with
 from ..ply import write_mesh
-from .camera_xml import matrix, sensor
-from .environment_xml import environment
-from .film_xml import band_defaults, film
-from .lights_xml import BLACK, light
-from .materials_xml import materials, texture_of
-from .names import Names
-from .spectrum_xml import element, format_spectrum, range_for
+from .xml.camera import matrix, sensor
+from .xml.environment import environment
+from .xml.film import band_defaults, film
+from .xml.lights import BLACK, light
+from .xml.materials import materials, texture_of
+from .xml.names import Names
+from .xml.spectrum import element, format_spectrum, range_for
 
 
 def translate(scene: RenderScene, extras: Extras, folder: Path, name: str) -> Path:

@@ -14,13 +14,13 @@ from xml.etree import ElementTree as Xml
 
 import numpy as np
 
-from ...errors import RecipeError
-from ...files import write_bytes
-from ...scene.render_scene import Texture
-from ...spectra import FloatArray
-from ..pictures import read_relief
-from .spectrum_xml import element
-from .textures_xml import finite, wrap_of
+from ....errors import RecipeError
+from ....files import write_bytes
+from ....scene.render_scene import Texture
+from ....spectra import FloatArray
+from ...pictures import read_relief
+from .spectrum import element
+from .textures import finite, wrap_of
 
 
 def heights(one: Texture, folder: Path) -> Xml.Element:

@@ -6,12 +6,12 @@ from collections.abc import Iterator, Mapping
 from pathlib import Path
 from xml.etree import ElementTree as Xml
 
-from ...errors import RecipeError
-from ...scene.render_scene import Material, RenderScene, TextureUse
+from ....errors import RecipeError
+from ....scene.render_scene import Material, RenderScene, TextureUse
 from .names import Names
-from .relief_xml import heights, normals
-from .spectrum_xml import comment, element, plugin_remark
-from .surfaces_xml import GLASSES, SURFACES, Writer, glass, number, texture_named
+from .relief import heights, normals
+from .spectrum import comment, element, plugin_remark
+from .surfaces import GLASSES, SURFACES, Writer, glass, number, texture_named
 
 # What other materials a material is made of, in the order in which Mitsuba wants them.
 _PARTS = {

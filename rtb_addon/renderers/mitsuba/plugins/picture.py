@@ -14,9 +14,9 @@ from typing import Any
 
 import numpy as np
 
-from ...spectra import Bands
-from ..pictures import Picture, read_picture
-from .textures_xml import ALL_WRAPS
+from ....spectra import Bands
+from ...pictures import Picture, read_picture
+from ..xml.textures import ALL_WRAPS
 
 
 def picture_plugin(mi: ModuleType) -> Any:
@@ -51,7 +51,7 @@ def picture_plugin(mi: ModuleType) -> Any:
             return mi.Float(np.ravel(self.picture.texels).astype(np.float32))
 
         def eval(self, si, active=True):
-            from .picture_lookup import Layout, taps
+            from ..picture_lookup import Layout, taps
 
             height, width, channels = self.size
             first, width, height, wrap, nearest = (

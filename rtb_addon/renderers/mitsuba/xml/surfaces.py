@@ -10,13 +10,13 @@ from pathlib import Path
 from typing import Any, NamedTuple
 from xml.etree import ElementTree as Xml
 
-from ...errors import RecipeError
-from ...scene.render_scene import Material, Texture, TextureUse
-from ...scene.vocabulary import WARD_VARIANTS
-from ...spectra import Spectrum
+from ....errors import RecipeError
+from ....scene.render_scene import Material, Texture, TextureUse
+from ....scene.vocabulary import WARD_VARIANTS
+from ....spectra import Spectrum
 from .names import Names
-from .spectrum_xml import element, format_spectrum
-from .textures_xml import texture
+from .spectrum import element, format_spectrum
+from .textures import texture
 
 
 class Writer(NamedTuple):

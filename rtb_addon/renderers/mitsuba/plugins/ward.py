@@ -14,7 +14,7 @@ from __future__ import annotations
 from types import ModuleType
 from typing import Any
 
-from ...scene.vocabulary import WARD_VARIANTS
+from ....scene.vocabulary import WARD_VARIANTS
 
 
 def ward_plugin(mi: ModuleType) -> Any:

@@ -9,10 +9,10 @@ from xml.etree import ElementTree as Xml
 
 import numpy as np
 
-from ...scene.render_scene import Camera, Film
-from ...spectra import FloatArray
+from ....scene.render_scene import Camera, Film
+from ....spectra import FloatArray
 from .names import Names
-from .spectrum_xml import comment, element
+from .spectrum import comment, element
 
 # Mitsuba's cameras and spots look along +Z, ours along -Z; half a turn about Y takes one to the other.
 HALF_TURN = np.diag([-1.0, 1.0, -1.0, 1.0])

@@ -7,8 +7,8 @@ from xml.etree import ElementTree as Xml
 
 import numpy as np
 
-from ...scene.render_scene import Film
-from .spectrum_xml import element, regular
+from ....scene.render_scene import Film
+from .spectrum import element, regular
 
 # A film that shows spectra at band centres gets bands as narrow as this around them [nm].
 _NARROW = 1.0

@@ -17,12 +17,12 @@ def sky_plugin(mi: ModuleType) -> Any:
     """
     Return the plugin's class for Mitsuba's present variant.
 
-    Its parameters are to_world, intensity, the picture (see picture_plugin.py) that multiplies it, and even:
+    Its parameters are to_world, intensity, the picture (see picture.py) that multiplies it, and even:
     then directions are drawn as the picture says, but the radiance is the intensity alone.
     """
     import drjit as dr
 
-    from .sky_sampling import SkySampling, axes_of, uv_of
+    from ..sky_sampling import SkySampling, axes_of, uv_of
 
     class SkyPicture(mi.Emitter):
         def __init__(self, props):

@@ -9,8 +9,8 @@ from __future__ import annotations
 from types import ModuleType
 
 from .blend import blend_plugin
-from .picture_plugin import picture_plugin
-from .sky_plugin import sky_plugin
+from .picture import picture_plugin
+from .sky import sky_plugin
 from .ward import ward_plugin
 
 _registered: set[str] = set()

@@ -8,15 +8,15 @@ from xml.etree import ElementTree as Xml
 
 import numpy as np
 
-from ...errors import RecipeError
-from ...scene.render_scene import Light
-from ...spectra import FloatArray, Spectrum, Unit
-from ..pictures import sky_gamma
-from .camera_xml import matrix
-from .lights_xml import Span, intensity_of, light
+from ....errors import RecipeError
+from ....scene.render_scene import Light
+from ....spectra import FloatArray, Spectrum, Unit
+from ...pictures import sky_gamma
+from .camera import matrix
+from .lights import Span, intensity_of, light
 from .names import Names
-from .spectrum_xml import comment, element, format_spectrum, plugin_remark
-from .textures_xml import AROUND
+from .spectrum import comment, element, format_spectrum, plugin_remark
+from .textures import AROUND
 
 
 def environment(lamp: Light, names: Names, span: Span, folder: Path) -> list[Xml.Element]:

@@ -14,11 +14,11 @@ from typing import Any, NamedTuple
 
 import numpy as np
 
-from ...errors import RecipeError
-from ...exr import write_exr
-from ...spectra import FloatArray, Spectrum, Unit
-from ...spectra.channels import channel_name
-from . import llvm, session
+from ....errors import RecipeError
+from ....exr import write_exr
+from ....spectra import FloatArray, Spectrum, Unit
+from ....spectra.channels import channel_name
+from .. import llvm, session
 
 # Where the plugin's spectra have their samples [nm], and the sun's diameter in it [degrees].
 NANOMETRES = np.arange(320.0, 721.0, 40.0)

@@ -7,8 +7,8 @@ from xml.etree import ElementTree as Xml
 
 import numpy as np
 
-from ...errors import RenderingError
-from ...spectra import FULL_RANGE, Bands, FloatArray, Spectrum
+from ....errors import RenderingError
+from ....spectra import FULL_RANGE, Bands, FloatArray, Spectrum
 
 # Sample positions are compared in steps of a thousandth of a nanometre; a regular spectrum of more samples
 # than this gives way to an irregular one, which is as exact and only slower in stock Mitsuba.

@@ -5,7 +5,7 @@ from __future__ import annotations
 import re
 from itertools import chain, count
 
-from ...errors import RecipeError
+from ....errors import RecipeError
 
 
 class Names:

@@ -7,12 +7,12 @@ from xml.etree import ElementTree as Xml
 
 import numpy as np
 
-from ...errors import RecipeError
-from ...scene.render_scene import Light
-from ...spectra import FloatArray, Spectrum
-from .camera_xml import matrix
+from ....errors import RecipeError
+from ....scene.render_scene import Light
+from ....spectra import FloatArray, Spectrum
+from .camera import matrix
 from .names import Names
-from .spectrum_xml import comment, element, format_spectrum
+from .spectrum import comment, element, format_spectrum
 
 # The material of lamps' spheres: they emit and reflect nothing.
 BLACK = "black"

@@ -1,4 +1,4 @@
-"""Textures as Mitsuba's: checkerboards are its own, pictures a plugin of ours (see picture_plugin.py)."""
+"""Textures as Mitsuba's: checkerboards are its own, pictures a plugin of ours (see plugins/picture.py)."""
 
 from __future__ import annotations
 
@@ -7,10 +7,10 @@ import os
 from pathlib import Path
 from xml.etree import ElementTree as Xml
 
-from ...errors import RecipeError
-from ...scene.render_scene import Texture
-from ...spectra import Spectrum
-from .spectrum_xml import element, format_spectrum
+from ....errors import RecipeError
+from ....scene.render_scene import Texture
+from ....spectra import Spectrum
+from .spectrum import element, format_spectrum
 
 Span = tuple[float, float]
 _FILTERS = {"nearest": "nearest", "bilinear": "bilinear", "trilinear": "bilinear", "ewa": "bilinear"}
