@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import tempfile
 import time
+from dataclasses import replace
 from pathlib import Path
 from typing import TYPE_CHECKING
 
@@ -12,10 +13,11 @@ import numpy as np
 
 from ..rtb_addon.blender import preview
 from ..rtb_addon.blender.colours import xyz_to_working_space
+from ..rtb_addon.blender.folders import recipe_folder, safe_name
 from ..rtb_addon.blender.properties import rendered_size
 from ..rtb_addon.blender.reading import read_rendered
 from ..rtb_addon.developing import daylight_efficacy
-from ..rtb_addon.errors import RenderingError
+from ..rtb_addon.errors import RecipeError, RenderingError
 from ..rtb_addon.recipe import Recipe
 from .child_batch import ChildBatch
 from .viewer_child import ViewerChild
@@ -23,6 +25,7 @@ from .viewer_child import ViewerChild
 if TYPE_CHECKING:
     from .render_engine import RTB_RE_engine
 
+STILL = "still"  # the folder, below the recipe's, of what Blender's own Render Image renders
 INTERVAL = 0.05  # [s] between two looks at what the child has said
 
 
@@ -49,9 +52,26 @@ class EngineRendering:
         recipe = read_rendered(self.scene, self.depsgraph)
         for remark in recipe.report:
             self.engine.report({"INFO"}, remark)
-        folder = recipe.save()
+        options = replace(recipe.options, crop=_framed(self.scene.render))
+        folder = replace(recipe, options=options).save(self._home() / self._part())
         if self._rendered(folder):
             self._show(folder)
+
+    def _home(self) -> Path:
+        """Return the folder below the recipe's that keeps the cubes; of an unsaved file one that passes."""
+        try:
+            return recipe_folder(self.scene) / STILL
+        except RecipeError:
+            home = Path(bpy.app.tempdir) / STILL
+        self.engine.report({"WARNING"}, f"the .blend is not saved, its cube is in {home} until Blender ends")
+        return home
+
+    def _part(self) -> Path:
+        """Return what tells pictures of one scene apart: the view layer where there are several, the frame."""
+        layers = [layer for layer in self.scene.view_layers if layer.use]
+        layer = [safe_name(self.depsgraph.view_layer.name)] if len(layers) > 1 else []
+        frame = [f"{self.scene.frame_current:04}"] if self.engine.is_animation else []
+        return Path(*layer, *frame)
 
     def _rendered(self, folder: Path) -> bool:
         """Render a folder in a child process and return whether it went to its end."""
@@ -76,11 +96,9 @@ class EngineRendering:
         """Give Blender the picture of the cube, in its working space."""
         recipe = Recipe.load(folder)
         pixels = developed(recipe.rendering_file(next(iter(recipe.conditions))))
-        result = self.engine.begin_result(0, 0, pixels.shape[1], pixels.shape[0])
-        width, height = result.resolution_x, result.resolution_y  # of the border only, where there is one
-        left, bottom = _corner(self.scene.render, pixels.shape[1] - width, pixels.shape[0] - height)
-        shown = np.ascontiguousarray(pixels[bottom : bottom + height, left : left + width])
-        result.layers[0].passes["Combined"].rect.foreach_set(shown.ravel())
+        layer = self.depsgraph.view_layer.name
+        result = self.engine.begin_result(0, 0, pixels.shape[1], pixels.shape[0], layer=layer)
+        result.layers[0].passes["Combined"].rect.foreach_set(pixels.ravel())
         self.engine.end_result(result)
 
 
@@ -110,10 +128,11 @@ def developed(cube: Path) -> np.ndarray:
         return np.fromfile(output, np.float32).reshape(size)
 
 
-def _corner(render, most_left: int, most_bottom: int) -> tuple[int, int]:
-    """Return where the part lies that is shown of the picture: its left and lower edge [pixels]."""
+def _framed(render) -> tuple[int, ...]:
+    """Return left, top, width and height of the part that is rendered [pixels], as Blender counts; or nothing."""
     if not render.use_border:
-        return 0, 0
-    width, height = rendered_size(render.id_data)
-    left, bottom = int(width * render.border_min_x), int(height * render.border_min_y)
-    return min(left, most_left), min(bottom, most_bottom)
+        return ()
+    width, height = map(np.float32, rendered_size(render.id_data))
+    left, right = int(width * np.float32(render.border_min_x)), int(width * np.float32(render.border_max_x))
+    low, high = int(height * np.float32(render.border_min_y)), int(height * np.float32(render.border_max_y))
+    return left, int(height) - high, right - left, high - low

@@ -16,8 +16,12 @@ _UNSAFE = re.compile(r'[\x00-\x1f<>:"/\\|?*]')
 
 def recipe_name(scene) -> str:
     """Return the name of a scene's recipe: what it says, else that of the .blend, else the scene's."""
-    name = scene.rtb.name.strip() or Path(bpy.data.filepath).stem or scene.name
-    return _UNSAFE.sub("_", name).strip(" .") or "recipe"
+    return safe_name(scene.rtb.name.strip() or Path(bpy.data.filepath).stem or scene.name)
+
+
+def safe_name(text: str) -> str:
+    """Return a text as the name of a folder that any system can have."""
+    return _UNSAFE.sub("_", text).strip(" .") or "recipe"
 
 
 def recipe_folder(scene) -> Path:

@@ -32,7 +32,6 @@ from .varied import set_value, subject_of, value_at
 from .written_mappings import declared_in, resources_of, written_mappings
 
 _CAMERA = "camera"
-STILL = "still"  # the folder, below the recipe's, of what Blender's own Render Image renders
 
 
 @dataclass(frozen=True)
@@ -108,7 +107,7 @@ def read_recipe(scene: bpy.types.Scene, remodel: Remodel | None = None) -> Scene
 
 def read_rendered(scene: bpy.types.Scene, depsgraph) -> SceneRecipe:
     """
-    Return the recipe of a scene's active condition alone, in a folder of its own below the recipe's.
+    Return the recipe of a scene's active condition alone.
 
     Parameters
     ----------
@@ -119,8 +118,7 @@ def read_rendered(scene: bpy.types.Scene, depsgraph) -> SceneRecipe:
     if table.names:
         row = min(scene.rtb.active_condition, len(table.names) - 1)
         table = Table(table.variables, [table.names[row]], [table.cells[row]])
-    found = _recipe(scene, table, [_looked(scene, seen_in(depsgraph))], told_apart)
-    return replace(found, folder=recipe_folder(scene) / STILL)
+    return _recipe(scene, table, [_looked(scene, seen_in(depsgraph))], told_apart)
 
 
 def _read(scene, remodel: Remodel | None) -> SceneRecipe:

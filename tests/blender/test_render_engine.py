@@ -9,6 +9,7 @@ import pytest
 
 from rtb_addon.colorimetry import linear_srgb, xyz
 from rtb_addon.developing import daylight_efficacy
+from rtb_addon.exr import read_exr
 from rtb_addon.spectral_image import SpectralImage
 
 ENGINE = "RENDERTOOLBOX"
@@ -115,6 +116,72 @@ def test_a_border_shows_the_part_of_the_picture_that_it_frames(scene, tmp_path):
     part = rendered(scene, tmp_path)
     assert part.shape == (8, 12, 3)
     np.testing.assert_array_equal(part, whole[:8, 6:18])
+
+
+def test_only_the_framed_part_is_rendered_and_stands_where_it_belongs(scene, tmp_path):
+    whole = rendered(scene, tmp_path)
+    render = scene.render
+    render.use_border, render.resolution_percentage = True, 50
+    render.resolution_x, render.resolution_y = 48, 32  # the same picture at half its size
+    render.border_min_x, render.border_max_x, render.border_min_y, render.border_max_y = 0.3, 0.7, 0.1, 0.6
+    part = rendered(scene, tmp_path)
+    cube = next((tmp_path / "rtb/cube/still/renderings").rglob("*.exr"))
+    left, right, top, bottom = 7, 16, 16 - 9, 16 - 1
+    assert SpectralImage.load(cube).radiance.shape[:2] == (bottom - top, right - left)
+    np.testing.assert_array_equal(part[top:bottom, left:right], whole[top:bottom, left:right])
+    assert part.sum() == pytest.approx(part[top:bottom, left:right].sum())
+
+
+def test_every_view_layer_has_a_picture_and_keeps_a_cube(scene, tmp_path):
+    scene.view_layers.new("Without: Cube").layer_collection.children["Collection"].exclude = True
+    for name in ("Light", "Camera"):
+        scene.collection.objects.link(bpy.data.objects[name])
+    layers = picture_layers(scene, tmp_path)
+    assert layers["ViewLayer"].max() > 0
+    assert layers["Without: Cube"].max() == 0
+    kept = {cube.relative_to(tmp_path / "rtb/cube/still").parts[0] for cube in cubes_below(tmp_path)}
+    assert kept == {"ViewLayer", "Without_ Cube"}
+
+
+def picture_layers(scene, folder: Path) -> dict[str, np.ndarray]:
+    """Press Render Image and return the green channel of each view layer."""
+    settings = scene.render.image_settings
+    if hasattr(settings, "media_type"):
+        settings.media_type = "MULTI_LAYER_IMAGE"
+    settings.file_format = "OPEN_EXR_MULTILAYER"
+    scene.render.filepath = str(folder / "layers.exr")
+    bpy.ops.render.render(write_still=True)
+    _, channels = read_exr(folder / "layers.exr")
+    return {layer.name: channels[f"{layer.name}.Combined.G"] for layer in scene.view_layers}
+
+
+def cubes_below(folder: Path) -> list[Path]:
+    return sorted((folder / "rtb/cube/still").rglob("renderings/*/*.exr"))
+
+
+def test_each_frame_of_an_animation_keeps_its_cube(scene, tmp_path):
+    cube = bpy.data.objects["Cube"]
+    for frame, height in ((1, 0.0), (2, 100.0)):
+        cube.location.z = height
+        cube.keyframe_insert("location", frame=frame)
+    scene.frame_start, scene.frame_end = 1, 2
+    scene.render.filepath = str(tmp_path / "frame-####")
+    bpy.ops.render.render(animation=True)
+    kept = cubes_below(tmp_path)
+    assert [file.relative_to(tmp_path / "rtb/cube/still").parts[0] for file in kept] == ["0001", "0002"]
+    first, second = (SpectralImage.load(file).radiance.max() for file in kept)
+    assert first > 0 == second
+    assert [file.name for file in sorted(tmp_path.glob("frame-*"))] == ["frame-0001.png", "frame-0002.png"]
+
+
+def test_a_file_that_was_never_saved_renders_and_its_cube_passes(scene):
+    bpy.ops.wm.read_homefile(use_factory_startup=True)
+    scene = bpy.context.scene
+    scene.render.engine, scene.rtb.renderer, scene.rtb.samples = ENGINE, "tracer", 2
+    scene.rtb.width, scene.rtb.height = 8, 6
+    assert bpy.ops.render.render() == {"FINISHED"}
+    kept = list((Path(bpy.app.tempdir) / "still/renderings/tracer").glob("*.exr"))
+    assert len(kept) == 1
 
 
 def test_what_is_wrong_is_said_in_one_sentence(scene, tmp_path):
