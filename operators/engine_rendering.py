@@ -67,7 +67,7 @@ class EngineRendering:
         return home
 
     def _part(self) -> Path:
-        """Return what tells pictures of one scene apart: the view layer where there are several, the frame."""
+        """Return what tells pictures of a scene apart: the view layer where there are several, the frame."""
         layers = [layer for layer in self.scene.view_layers if layer.use]
         layer = [safe_name(self.depsgraph.view_layer.name)] if len(layers) > 1 else []
         frame = [f"{self.scene.frame_current:04}"] if self.engine.is_animation else []
@@ -129,7 +129,7 @@ def developed(cube: Path) -> np.ndarray:
 
 
 def _framed(render) -> tuple[int, ...]:
-    """Return left, top, width and height of the part that is rendered [pixels], as Blender counts; or nothing."""
+    """Return left, top, width and height of the render region [pixels], as Blender counts; or nothing."""
     if not render.use_border:
         return ()
     width, height = map(np.float32, rendered_size(render.id_data))
