@@ -10,7 +10,7 @@ from .cancel_rendering import RTB_OT_cancel_rendering
 from .check_recipe import RTB_OT_check_recipe
 from .compare_renderers import RTB_OT_compare_renderers
 from .copy_conditions import RTB_OT_copy_conditions
-from .dropped_files import RTB_FH_recipe
+from .dropped_files import RTB_FH_recipe, RTB_FH_spectra
 from .duplicate_condition import RTB_OT_duplicate_condition
 from .duplicate_variable import RTB_OT_duplicate_variable
 from .edit_mapping import RTB_OT_edit_mapping
@@ -26,7 +26,7 @@ from .fill_random import RTB_OT_fill_random
 from .fill_range import RTB_OT_fill_range
 from .import_conditions import RTB_OT_import_conditions
 from .import_recipe import RTB_OT_import_recipe
-from .import_spectra import RTB_FH_spectra, RTB_OT_import_spectra
+from .import_spectra import RTB_OT_import_spectra
 from .move_condition import RTB_OT_move_condition
 from .move_variable import RTB_OT_move_variable
 from .open_folder import RTB_OT_open_folder
@@ -44,6 +44,7 @@ from .render_recipe import RTB_OT_render_recipe
 from .select_culprit import RTB_OT_select_culprit
 from .select_variable import RTB_OT_select_variable
 from .set_variable_kind import RTB_OT_set_variable_kind
+from .show_condition import RTB_OT_show_condition
 from .show_montage import RTB_OT_show_montage
 from .tell import RTB_OT_tell
 from .test_renderers import RTB_OT_test_renderers
@@ -65,6 +66,7 @@ CLASSES = (
     RTB_OT_export_recipe,
     RTB_OT_render_recipe,
     RTB_OT_cancel_rendering,
+    RTB_OT_show_condition,
     RTB_OT_show_montage,
     RTB_OT_use_spectra,
     RTB_OT_tell,

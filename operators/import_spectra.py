@@ -58,16 +58,3 @@ class RTB_OT_import_spectra(bpy.types.Operator, ImportHelper):
         what = next(iter(found[0][1])) if count == 1 else f"{count} spectra"
         self.report({"INFO"}, f"{what} {'is' if count == 1 else 'are'} in the library, under Own")
         return {"FINISHED"}
-
-
-class RTB_FH_spectra(bpy.types.FileHandler):
-    """Spectra dropped on a window"""
-
-    bl_idname = "RTB_FH_spectra"
-    bl_label = "Spectra for the Library"
-    bl_import_operator = RTB_OT_import_spectra.bl_idname
-    bl_file_extensions = ENDINGS
-
-    @classmethod
-    def poll_drop(cls, context):
-        return context.area is not None and context.area.type in ("VIEW_3D", "PROPERTIES", "IMAGE_EDITOR")
