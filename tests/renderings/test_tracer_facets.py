@@ -4,8 +4,8 @@ import numpy as np
 import pytest
 
 from rtb_addon.errors import RecipeError
-from rtb_addon.renderers.tracer import coat
-from rtb_addon.renderers.tracer.facets import SLOPES
+from rtb_addon.renderers.tracer.materials import coat
+from rtb_addon.renderers.tracer.materials.facets import SLOPES
 from rtb_addon.scene.render_scene import Material, Shape
 from rtb_addon.spectra import Spectrum
 from tests.renderings.scattering import (

@@ -7,7 +7,7 @@ import pytest
 
 from rtb_addon.errors import RecipeError
 from rtb_addon.exr import write_exr
-from rtb_addon.renderers.tracer import fluorescence
+from rtb_addon.renderers.tracer.materials import fluorescence
 from rtb_addon.scene.render_scene import Camera, Material, Shape
 from rtb_addon.spectra import Bands, Spectrum, Unit, library
 from rtb_addon.spectra.donaldson import Donaldson, read_donaldson

@@ -14,7 +14,7 @@ from rtb_addon.renderers.interface import RenderOptions
 from rtb_addon.renderers.tracer import carried, histories, integrate, passes, together
 from rtb_addon.renderers.tracer.film import offsets
 from rtb_addon.renderers.tracer.intersect import best_kernel
-from rtb_addon.renderers.tracer.sky import Skies
+from rtb_addon.renderers.tracer.lights.sky import Skies
 from rtb_addon.scene.render_scene import Crop, Light, Mesh, Shape
 from rtb_addon.spectra import Spectrum
 from tests.renderings.test_tracer import busy_room

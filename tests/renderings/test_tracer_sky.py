@@ -11,7 +11,7 @@ from scipy import interpolate, stats
 from rtb_addon.exr import write_exr
 from rtb_addon.renderers import find
 from rtb_addon.renderers.interface import RenderOptions
-from rtb_addon.renderers.tracer.sky import Skies
+from rtb_addon.renderers.tracer.lights.sky import Skies
 from rtb_addon.scene.render_scene import Camera, Film, Light, Material, Shape
 from rtb_addon.spectra import Spectrum, Unit
 from rtb_addon.spectra.channels import channel_name

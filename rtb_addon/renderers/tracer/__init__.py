@@ -2,11 +2,12 @@
 The internal spectral tracer: a path tracer in numpy that carries all bands along every path.
 
 To read it, follow a path from the camera to a light in integrate.py. The other modules are what it
-meets on its way: camera.py, intersect.py (bvh.py where Embree is missing), materials.py, lights.py, and
+meets on its way: camera.py, intersect.py (bvh.py where Embree is missing), materials/, lights/, and
 carried.py, what its light is multiplied by in each band; sampler.py gives the random numbers, directions.py
-the arithmetic, native.py the file. What a material can do stands in meeting.py; matte.py, ward.py, metal.py
-and so on are the kinds. passes.py makes pictures of paths, together.py in several processes, layers.py
-what is known beside light.
+the arithmetic, native.py the file. What a material can do stands in meeting.py, the kinds of material are in
+materials/: matte.py, ward.py, metal.py and so on. What a light can do stands in lights/groups.py, beside the
+kinds. passes.py makes pictures of paths, together.py in several processes, layers.py what is known beside
+light.
 """
 
 from __future__ import annotations

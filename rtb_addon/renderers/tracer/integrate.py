@@ -23,8 +23,8 @@ from .directions import dot, length
 from .histories import Histories, InHistories
 from .intersect import Surfaces, warm_surfaces
 from .kernels import Hits, Kernel
-from .lamps import Sample
 from .lights import Lights
+from .lights.groups import Sample
 from .materials import Materials
 from .meeting import Meeting, Model
 from .paths import Paths

@@ -22,10 +22,10 @@ from ..rounds import Progress, Rounds, rounds_of
 from .camera import rays
 from .carried import Carrier
 from .film import offsets
-from .fluorescence import widened
 from .integrate import FILM, LENS, Draw, World, follow, pairs_needed
 from .intersect import best_kernel
 from .kernels import Kernel
+from .materials.fluorescence import widened
 from .paths import Paths
 from .placed import around_zero
 from .sampler import Sampler

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
-from typing import TYPE_CHECKING, NamedTuple
+from typing import TYPE_CHECKING, NamedTuple, Protocol
 
 import numpy as np
 from numpy.typing import NDArray
@@ -14,10 +14,17 @@ from ...spectra import FloatArray, Spectrum
 
 if TYPE_CHECKING:
     from .meeting import Meeting
-    from .textures import Lookup
 
 # Products of a light and a few distances must stay within single precision.
 _LARGEST = 1e30
+
+
+class Lookup(Protocol):
+    """A texture ready to be asked."""
+
+    def at(self, uvs: FloatArray) -> FloatArray:
+        """Return (n, bands) float32 spectra at (2, n) texture coordinates."""
+        ...
 
 
 class Colours:

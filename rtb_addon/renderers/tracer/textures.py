@@ -4,22 +4,13 @@ from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
 from pathlib import Path
-from typing import Protocol
 
 import numpy as np
 
 from ...scene.render_scene import Film, IntArray, Texture
 from ...spectra import FloatArray
 from ..pictures import read_picture
-from .tables import table
-
-
-class Lookup(Protocol):
-    """A texture ready to be asked."""
-
-    def at(self, uvs: FloatArray) -> FloatArray:
-        """Return (n, bands) float32 spectra at (2, n) texture coordinates."""
-        ...
+from .tables import Lookup, table
 
 
 class Checkerboard:

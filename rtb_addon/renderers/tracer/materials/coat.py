@@ -6,8 +6,8 @@ from functools import lru_cache
 
 import numpy as np
 
-from ...scene.render_scene import IntArray
-from ...spectra import FloatArray
+from ....scene.render_scene import IntArray
+from ....spectra import FloatArray
 from . import fresnel
 from .facets import Slopes
 

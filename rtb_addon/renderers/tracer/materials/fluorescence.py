@@ -18,13 +18,13 @@ from pathlib import Path
 import numpy as np
 from numpy.typing import NDArray
 
-from ...scene.render_scene import IntArray, Material, RenderScene
-from ...spectra import Bands, FloatArray
-from ...spectra.donaldson import read_donaldson
-from .directions import dot
+from ....scene.render_scene import IntArray, Material, RenderScene
+from ....spectra import Bands, FloatArray
+from ....spectra.donaldson import read_donaldson
+from ..directions import dot
+from ..meeting import Meeting, Model, Onward, chosen, column
+from ..tables import Palette
 from .matte import lobe, scattered
-from .meeting import Meeting, Model, Onward, chosen, column
-from .tables import Palette
 
 # Neither what comes back as it came nor what does not is looked for more seldom, where there is any.
 _SELDOM = 0.1

@@ -12,12 +12,12 @@ from collections.abc import Sequence
 import numpy as np
 from numpy.typing import NDArray
 
-from ...scene.render_scene import Material
-from ...spectra import FloatArray
+from ....scene.render_scene import Material
+from ....spectra import FloatArray
+from ..meeting import Meeting, Onward, chosen, column
+from ..tables import Palette, numbers
 from . import fresnel
-from .meeting import Meeting, Onward, chosen, column
 from .smooth import Single, only_one
-from .tables import Palette, numbers
 
 
 class _Smooth(Single):

@@ -13,8 +13,8 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from ...scene.render_scene import Material, Value
-from ...spectra import FloatArray
+from ....scene.render_scene import Material, Value
+from ....spectra import FloatArray
 
 
 class Mixtures:

@@ -10,7 +10,7 @@ from __future__ import annotations
 
 import numpy as np
 
-from ...spectra import FloatArray
+from ....spectra import FloatArray
 
 
 def distribution(h: FloatArray, along: FloatArray, across: FloatArray) -> FloatArray:

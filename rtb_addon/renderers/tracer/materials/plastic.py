@@ -17,14 +17,14 @@ from collections.abc import Sequence
 
 import numpy as np
 
-from ...scene.render_scene import IntArray, Material
-from ...spectra import FloatArray
+from ....scene.render_scene import IntArray, Material
+from ....spectra import FloatArray
+from ..meeting import Meeting, Model, Onward, chosen, column, weighed
+from ..tables import Palette, numbers
 from . import facets, fresnel
 from .coat import Coats
 from .matte import lobe, scattered
-from .meeting import Meeting, Model, Onward, chosen, column, weighed
 from .smooth import mirrored
-from .tables import Palette, numbers
 
 
 class _Plastic(Model):

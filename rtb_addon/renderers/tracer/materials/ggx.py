@@ -10,8 +10,8 @@ from __future__ import annotations
 
 import numpy as np
 
-from ...spectra import FloatArray
-from .directions import cross, dot, normalised
+from ....spectra import FloatArray
+from ..directions import cross, dot, normalised
 
 
 def distribution(h: FloatArray, along: FloatArray, across: FloatArray) -> FloatArray:

@@ -12,12 +12,12 @@ from pathlib import Path
 
 import numpy as np
 
-from ...scene.render_scene import Film, IntArray, Light
-from ...spectra import FloatArray
-from ..pictures import read_picture, sky_gamma
-from .directions import length
-from .lamps import Sample
-from .textures import around
+from ....scene.render_scene import Film, IntArray, Light
+from ....spectra import FloatArray
+from ...pictures import read_picture, sky_gamma
+from ..directions import length
+from ..textures import around
+from .groups import Sample
 
 # How texels go on across the picture and down it.
 _WRAPS = "repeat", "clamp"

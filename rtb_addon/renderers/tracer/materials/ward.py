@@ -17,14 +17,14 @@ from collections.abc import Sequence
 
 import numpy as np
 
-from ...scene.render_scene import IntArray, Material
-from ...scene.vocabulary import WARD_VARIANTS
-from ...spectra import FloatArray
+from ....scene.render_scene import IntArray, Material
+from ....scene.vocabulary import WARD_VARIANTS
+from ....spectra import FloatArray
+from ..directions import dot
+from ..meeting import Meeting, Model, Onward, chosen, column, weighed
+from ..tables import Palette, numbers
 from . import beckmann
-from .directions import dot
 from .matte import lobe, scattered
-from .meeting import Meeting, Model, Onward, chosen, column, weighed
-from .tables import Palette, numbers
 
 
 class Ward(Model):

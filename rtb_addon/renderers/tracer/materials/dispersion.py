@@ -17,14 +17,14 @@ from collections.abc import Sequence
 import numpy as np
 from numpy.typing import NDArray
 
-from ...scene.render_scene import IntArray, Material
-from ...spectra import FloatArray
+from ....scene.render_scene import IntArray, Material
+from ....spectra import FloatArray
+from ..meeting import Meeting, Onward, chosen
+from ..tables import Palette
 from . import fresnel
 from .glass import Glass, ThinGlass
-from .meeting import Meeting, Onward, chosen
 from .rough_glass import RoughGlass
 from .smooth import only_one
-from .tables import Palette
 
 
 class DispersingGlass(Glass):

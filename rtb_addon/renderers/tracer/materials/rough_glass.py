@@ -11,13 +11,13 @@ from collections.abc import Sequence
 
 import numpy as np
 
-from ...scene.render_scene import IntArray, Material
-from ...spectra import FloatArray
+from ....scene.render_scene import IntArray, Material
+from ....spectra import FloatArray
+from ..directions import dot, normalised
+from ..meeting import Meeting, Model, Onward, chosen, column, weighed
+from ..tables import Palette, numbers
 from . import facets, fresnel
-from .directions import dot, normalised
 from .glass import relative
-from .meeting import Meeting, Model, Onward, chosen, column, weighed
-from .tables import Palette, numbers
 
 
 class RoughGlass(Model):

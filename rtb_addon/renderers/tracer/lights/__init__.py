@@ -13,14 +13,17 @@ from typing import NamedTuple
 
 import numpy as np
 
-from ...scene.render_scene import IntArray, Light, RenderScene
-from ...spectra import FloatArray
-from .directions import dot
-from .intersect import Surfaces
-from .kernels import Hits
-from .lamps import Group, Lamps, Sample, Spheres, Suns, Triangles
+from ....scene.render_scene import IntArray, Light, RenderScene
+from ....spectra import FloatArray
+from ..directions import dot
+from ..intersect import Surfaces
+from ..kernels import Hits
+from ..tables import table
+from .groups import Group, Sample
+from .lamps import Lamps, Spheres
 from .sky import Skies
-from .tables import table
+from .suns import Suns
+from .triangles import Triangles
 
 # So many lights, or triangles of them, are told apart sooner one by one than by bisection.
 _FEW = 16

@@ -8,12 +8,12 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 
-from ...scene.render_scene import IntArray, Material
-from ...spectra import FloatArray
+from ....scene.render_scene import IntArray, Material
+from ....spectra import FloatArray
+from ..meeting import Meeting, Model, Onward, column, weighed
+from ..tables import Palette, numbers
 from . import facets, fresnel
-from .meeting import Meeting, Model, Onward, column, weighed
 from .smooth import Single, mirrored, only_one
-from .tables import Palette, numbers
 
 
 class SmoothMetal(Single):

@@ -6,11 +6,11 @@ from collections.abc import Sequence
 
 import numpy as np
 
-from ...scene.render_scene import IntArray, Material
-from ...spectra import FloatArray
-from .directions import dot
-from .meeting import Meeting, Model, Onward
-from .tables import Palette
+from ....scene.render_scene import IntArray, Material
+from ....spectra import FloatArray
+from ..directions import dot
+from ..meeting import Meeting, Model, Onward
+from ..tables import Palette
 
 
 class Single(Model):

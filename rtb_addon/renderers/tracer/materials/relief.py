@@ -19,14 +19,14 @@ from typing import Protocol
 
 import numpy as np
 
-from ...errors import RenderingError
-from ...scene.render_scene import IntArray, Material, Texture
-from ...spectra import FloatArray
-from ..pictures import read_relief
-from .directions import Frame, cross, dot, normalised
-from .intersect import Places
-from .meeting import Meeting, Model, Onward, column
-from .textures import beside, pairs_of
+from ....errors import RenderingError
+from ....scene.render_scene import IntArray, Material, Texture
+from ....spectra import FloatArray
+from ...pictures import read_relief
+from ..directions import Frame, cross, dot, normalised
+from ..intersect import Places
+from ..meeting import Meeting, Model, Onward, column
+from ..textures import beside, pairs_of
 
 
 class Relief(Protocol):

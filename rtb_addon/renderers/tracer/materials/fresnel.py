@@ -8,7 +8,7 @@ from __future__ import annotations
 
 import numpy as np
 
-from ...spectra import FloatArray
+from ....spectra import FloatArray
 
 
 def dielectric(cosine: FloatArray, eta: FloatArray) -> tuple[FloatArray, FloatArray]:

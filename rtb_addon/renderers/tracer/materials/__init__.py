@@ -13,21 +13,21 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from ...scene.render_scene import Film, IntArray, Material, Texture, TextureUse, Value
-from ...spectra import Spectrum
+from ....scene.render_scene import Film, IntArray, Material, Texture, TextureUse, Value
+from ....spectra import Spectrum
+from ..meeting import Model
+from ..tables import Lookup, Palette, table
+from ..textures import lookup
 from .dispersion import DispersingGlass, DispersingRoughGlass, DispersingThinGlass
 from .fluorescence import Fluorescent
 from .glass import Glass, ThinGlass
 from .matte import Matte
-from .meeting import Model
 from .metal import RoughMetal, SmoothMetal
 from .mixtures import NOTHING, Part, mixtures, parts_of
 from .plastic import Plastic, RoughPlastic
 from .relief import relieved
 from .rough_glass import RoughGlass
 from .smooth import Mirror, Nothing
-from .tables import Palette, table
-from .textures import Lookup, lookup
 from .ward import Ward
 
 # Vocabulary's word, and the same with a roughness of 0 where that is another kind -> what makes the kind.

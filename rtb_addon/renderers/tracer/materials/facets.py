@@ -12,10 +12,10 @@ from typing import Protocol
 
 import numpy as np
 
-from ...scene.render_scene import Material
-from ...spectra import FloatArray
+from ....scene.render_scene import Material
+from ....spectra import FloatArray
+from ..directions import dot, normalised
 from . import beckmann, ggx
-from .directions import dot, normalised
 
 
 class Slopes(Protocol):
