@@ -44,6 +44,10 @@ def draw_settings(layout, settings) -> None:
     column = layout.column(align=True)
     for name, label in BANDS.items():
         column.prop(settings, name, text=label)
+    header, layers = layout.panel("RTB_PT_render_settings_layers", default_closed=True)
+    header.label(text="Layers")
+    if layers is not None:
+        layers.column(align=True).prop(settings, "layers", expand=True)
     header, advanced = layout.panel("RTB_PT_render_settings_advanced", default_closed=True)
     header.label(text="Advanced")
     if advanced is not None:

@@ -18,7 +18,7 @@ from .json_mappings import as_blocks
 
 # Options that the scene has properties for; others are kept as they are.
 _SAME = ("width", "height", "samples", "seed", "integrator", "depth", "filter", "band_kind")
-_OWN = (*_SAME, "renderer", "bands", "until_error", "camera")
+_OWN = (*_SAME, "renderer", "bands", "until_error", "layers", "camera")
 
 
 def open_recipe(folder: Path | str) -> tuple[bpy.types.Scene, list[str]]:
@@ -56,6 +56,7 @@ def _set_options(scene, recipe: Recipe) -> list[str]:
     for name in _SAME:
         setattr(settings, name, getattr(options, name))
     settings.until_error = options.until_error or 0.0
+    settings.layers = set(options.layers)
     settings.bands_start, settings.bands_step, settings.bands_count = options.bands
     settings.montage_columns, settings.montage_fill = recipe.montage.columns or 0, recipe.montage.fill
     words = section_words(options)

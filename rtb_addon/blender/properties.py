@@ -50,6 +50,22 @@ BAND_KINDS = (
     ("mean", "Mean", "The true mean over a band of what comes out", 2),
     ("centre", "Centre", "The values at a band's centre", 3),
 )
+LAYERS = tuple(
+    (name, label, words, 2**number)
+    for number, (name, label, words) in enumerate(
+        (
+            ("depth", "Depth", "How far what is seen lies ahead (m)"),
+            ("normal", "Normals", "Which way surfaces face in the world"),
+            ("uv", "Texture Coordinates", "Where in its UV map a surface is seen"),
+            ("object", "Objects", "A number for each object, with the names"),
+            ("material", "Materials", "A number for each material, with the names"),
+            ("albedo", "Albedo", "Reflectance of what is seen, in each band"),
+            ("direct", "Direct Light", "Radiance of light that comes straight from lamps"),
+            ("indirect", "Indirect Light", "Radiance of all other light"),
+            ("standard_error", "Standard Errors", "How uncertain each radiance is, for a view of it"),
+        )
+    )
+)
 FILLS = (
     ("columns", "Down the Columns", "Conditions go down the columns, as in RenderToolbox3", 1),
     ("rows", "Along the Rows", "Conditions go along the rows, as the patches of a chart", 2),
@@ -116,6 +132,12 @@ class RTB_PG_scene(bpy.types.PropertyGroup):
     bands_start: FloatProperty(name="First Band (nm)", default=400.0, min=1.0, precision=1)
     bands_step: FloatProperty(name="Band Width (nm)", default=10.0, min=0.01, precision=1)
     band_kind: EnumProperty(name="Band Values", items=BAND_KINDS, default="averaged")
+    layers: EnumProperty(
+        name="Layers",
+        description="What each condition's file of layers holds beside its cube",
+        items=LAYERS,
+        options={"ENUM_FLAG"},
+    )
     bands_count: IntProperty(name="Bands", default=31, min=1, soft_max=100)
     montage_columns: IntProperty(
         name="Montage Columns", description="0: as square as may be", default=0, min=0

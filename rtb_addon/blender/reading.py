@@ -12,6 +12,7 @@ import bpy
 
 from ..conditions import Condition, Conditions
 from ..errors import RecipeError
+from ..layers import NAMES as LAYERS
 from ..recipe import Conventions, MontageOptions, RecipeOptions, write_recipe
 from ..recipe.options import section
 from ..scene.collada.write_numbers import shortest
@@ -232,6 +233,7 @@ def _options(scene, camera: str) -> RecipeOptions:
         seed=settings.seed,
         filter=settings.filter,
         band_kind=settings.band_kind,
+        layers=tuple(name for name in LAYERS if name in settings.layers or name in kept.layers),
         integrator=settings.integrator,
         depth=settings.depth,
         camera=camera,

@@ -57,6 +57,7 @@ def recipe(library, builder, tmp_path):
         height=30,
         samples=8,
         band_kind="centre",
+        layers=("depth", "standard_error"),
     )
 
 
@@ -117,6 +118,7 @@ def test_a_folder_renders_the_same_after_it_was_opened_in_blender_and_written(re
     assert_renders_the_same(scenes_of(library, recipe.folder), scenes_of(library, folder))
     again = library("recipe").Recipe.load(folder)
     assert again.options.band_kind == "centre"
+    assert again.options.layers == ("depth", "standard_error")
     assert "maxDepth" in again.mappings.text
 
 

@@ -1,11 +1,13 @@
 """What panels draw, without a window: a stand-in notes it."""
 
+import importlib
 import sys
 from types import SimpleNamespace
 
 import bpy
 import pytest
 
+from rtb_addon.layers import NAMES
 from tests.blender.stand_in_layout import RecordingLayout
 
 
@@ -102,9 +104,14 @@ def test_how_to_render_stands_in_the_render_tab_whatever_the_engine(panel, engin
     layout = panel("render_settings", "RTB_PT_render_settings")
     assert layout.names("prop") == [
         *("renderer", "samples", "until_error", "bands_count", "bands_start", "bands_step"),
-        *("integrator", "depth", "seed", "filter", "band_kind"),
+        *("layers", "integrator", "depth", "seed", "filter", "band_kind"),
     ]
     assert ("view transform" in " ".join(layout.names("label"))) == (engine == "RENDERTOOLBOX")
+
+
+def test_every_layer_can_be_chosen(extension):
+    offered = importlib.import_module(f"{extension}.rtb_addon.blender.properties").LAYERS
+    assert tuple(name for name, *_ in offered) == NAMES
 
 
 SPECTRAL = [
