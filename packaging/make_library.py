@@ -8,6 +8,7 @@ with warnings.catch_warnings():
     import colour
     from colour.colorimetry import SDS_BASIS_FUNCTIONS_CIE_ILLUMINANT_D_SERIES as DAYLIGHT
     from colour.colorimetry.datasets.light_sources import sds as lamps
+    from colour.quality.datasets.tcs import SDS_TCS as TEST_COLOURS
 
 OBSERVER = colour.MSDS_CMFS["CIE 1931 2 Degree Standard Observer"]
 CONES = colour.MSDS_CMFS["Stockman & Sharpe 2 Degree Cone Fundamentals"]
@@ -61,6 +62,11 @@ def main() -> None:
     columns = [DAYLIGHT["S0"].wavelengths, *(DAYLIGHT[name].values for name in ("S0", "S1", "S2"))]
     basis = [",".join(map(number, line)) for line in zip(*columns, strict=True)]
     write("daylight_basis.csv", "wavelength [nm], S0, S1, S2 [relative]", basis)
+    samples = zip(
+        TEST_COLOURS["TCS01"].wavelengths, *(each.values for each in TEST_COLOURS.values()), strict=True
+    )
+    rows = [",".join(map(number, line)) for line in samples]
+    write("test_colours.csv", "wavelength [nm], reflectances of the CIE's test colours 1 to 14", rows)
     write_functions("cie_1931.csv", OBSERVER, "x, y, z of the CIE 1931 2 degree observer")
     write_functions(
         "cones.csv",

@@ -1,4 +1,4 @@
-"""How observers weigh light of each wavelength: the CIE's standard one and the cones, as small tables."""
+"""How observers weigh light of each wavelength, and the colours that lights are tested with: small tables."""
 
 from __future__ import annotations
 
@@ -16,6 +16,11 @@ CONES = ("L", "M", "S")
 def cie_1931() -> tuple[FloatArray, FloatArray]:
     """Return wavelengths [nm] and CIE 1931 2 degree functions, (wavelengths, 3), at every nanometre."""
     return _table("cie_1931.csv")
+
+
+def test_colours() -> tuple[FloatArray, FloatArray]:
+    """Return wavelengths [nm] and reflectances of the CIE's colours for testing lights, (wavelengths, 14)."""
+    return _table("test_colours.csv")
 
 
 def matching_functions(bands: Bands) -> FloatArray:

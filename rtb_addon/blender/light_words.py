@@ -16,7 +16,7 @@ from .own_spectra import heard
 from .redrawing import redraw_panels
 
 MOST = 64  # answers that are kept
-LINES = 3
+ROWS = 5
 
 
 class Told(NamedTuple):
@@ -25,16 +25,16 @@ class Told(NamedTuple):
 
     Parameters
     ----------
-    lines : one below the other
+    rows : names and values, one below the other
     sentence : why there are none
     """
 
-    lines: tuple[str, ...] = ()
+    rows: tuple[tuple[str, str], ...] = ()
     sentence: str = ""
 
 
 _told: dict[tuple, Told] = {}
-_wanted: dict[tuple, tuple[str, str]] = {}
+_wanted: dict[tuple, tuple[tuple[str, str | None], str]] = {}
 
 
 def told(light, scene) -> Told:
@@ -43,7 +43,7 @@ def told(light, scene) -> Told:
     key = (
         *(
             light.type,
-            light.name,
+            _name_of(light),
             typed_in(settings, "spectrum", scene.rtb),
             settings.measure,
             settings.amount,
@@ -53,7 +53,7 @@ def told(light, scene) -> Told:
         scene.unit_settings.scale_length,
     )
     if key not in _told and key not in _wanted:
-        _wanted[key] = light.name, scene.name
+        _wanted[key] = _name_of(light), scene.name
         if not bpy.app.background and not bpy.app.timers.is_registered(_tell_and_redraw):
             bpy.app.timers.register(_tell_and_redraw)
     return _told.get(key, Told())
@@ -74,17 +74,23 @@ def tell_wanted() -> int:
     return len(wanted)
 
 
+def _name_of(light) -> tuple[str, str | None]:
+    """Return what Blender finds a lamp by, also where a linked one has the same name."""
+    return light.name, None if light.library is None else light.library.filepath
+
+
 def _found(light, scene) -> Told:
     try:
-        return Told(tuple(_lines(light, scene)))
+        return Told(tuple(_rows(light, scene)))
     except (RecipeError, ValueError, OSError) as error:
         return Told((), str(error))
 
 
-def _lines(light, scene):
+def _rows(light, scene):
     # numpy and what stands on it take longer to come than enabling may last.
     from dataclasses import replace
 
+    from ..colour_rendering import rendering_index
     from ..photometry import lumens, temperature
     from ..spectra import Unit
     from .lamps import read_lamp
@@ -94,8 +100,10 @@ def _lines(light, scene):
     lamp = read_lamp(light, meter)
     text = typed_in(light.rtb, "spectrum", scene.rtb)
     shape = heard(text, Unit.SHAPE)
-    kelvin = temperature(shape)
-    yield "No colour temperature" if kelvin is None else f"{kelvin[0]:.0f} K   Duv {kelvin[1]:+.4f}"
+    kelvin, index = temperature(shape), rendering_index(shape)
+    yield "Temperature", "none" if kelvin is None else f"{kelvin[0]:.0f} K"
+    yield "Duv", "none" if kelvin is None else f"{kelvin[1]:+.4f}"
+    yield "CRI (Ra)", "none" if index is None else f"{index:.0f}"
     factor = lamp.factor
     if lamp.kind == "area":
         width, height = (side * meter for side in lamp.size)
@@ -103,8 +111,14 @@ def _lines(light, scene):
     spoken = replace(lamp, spectrum=text).statement("", factor).spectra["intensity"]
     physical = spoken.meant(shape)
     name, radiometric, photometric = _QUANTITIES[lamp.kind]
-    yield f"{name} {physical.integral():.4g} {radiometric}"
-    yield f"= {lumens(physical):.4g} {photometric}"
+    yield name, f"{in_digits(physical.integral())} {radiometric}"
+    yield "", f"{in_digits(lumens(physical))} {photometric}"
+
+
+def in_digits(value: float) -> str:
+    """Return four digits of a number, without powers of ten as long as people read it."""
+    rounded = float(f"{value:.4g}")
+    return f"{rounded:.0f}" if 1e4 <= rounded < 1e7 else f"{rounded:.4g}"
 
 
 def _area(lamp, meter: float) -> float:

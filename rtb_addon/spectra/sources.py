@@ -11,7 +11,7 @@ from .bands import FloatArray
 from .spectrum import FULL_RANGE, Spectrum, Unit
 
 _DATA = Path(__file__).parents[1] / "data"
-_DAYLIGHTS = (4000.0, 25000.0)
+DAYLIGHTS = (4000.0, 25000.0)  # [K]
 
 # The SI's defining constants: Planck [J s], speed of light [m s-1], Boltzmann [J K-1].
 _PLANCK, _LIGHT, _BOLTZMANN = 6.62607015e-34, 299792458.0, 1.380649e-23
@@ -30,7 +30,7 @@ def daylight(kelvin: float) -> Spectrum:
     CIE 15:2018, section 4.1.2. D65 is daylight(6504), not 6500: the D illuminants were named before the
     constant c2 changed.
     """
-    if not _DAYLIGHTS[0] <= kelvin <= _DAYLIGHTS[1]:
+    if not DAYLIGHTS[0] <= kelvin <= DAYLIGHTS[1]:
         raise ValueError(f"daylight of {kelvin:g} K is not defined, want 4000 to 25000 K")
     x = _chromaticity_x(kelvin)
     y = -3.000 * x**2 + 2.870 * x - 0.275

@@ -136,6 +136,17 @@ def test_an_amount_that_a_lamp_cannot_have_is_refused(shining, kind, measure, pr
         shining(kind, measure, 10, **properties)
 
 
+def test_a_lamp_without_a_temperature_has_no_rendering_index_either(scene, lamp, library):
+    light = lamp("SUN").data
+    light.rtb.use_spectra, light.rtb.spectrum = True, "531:0 532:1 533:0"
+    words = library("blender.light_words")
+    words.told(light, scene)
+    words.tell_wanted()
+    assert dict(words.told(light, scene).rows[:3]) == dict.fromkeys(
+        ("Temperature", "Duv", "CRI (Ra)"), "none"
+    )
+
+
 def test_the_panel_tells_what_the_light_comes_to(scene, lamp, library):
     light = lamp("POINT", energy=100).data
     light.rtb.use_spectra, light.rtb.spectrum = True, "D65"
@@ -143,15 +154,19 @@ def test_the_panel_tells_what_the_light_comes_to(scene, lamp, library):
     words.tell_wanted()
     assert words.told(light, scene) == words.Told(), "nothing is worked out while drawing"
     assert words.tell_wanted() == 1
-    colour, radiometric, photometric = words.told(light, scene).lines
-    assert colour == "6503 K   Duv +0.0032"
-    assert radiometric == f"Intensity {100 / (4 * math.pi):.4g} W/sr"
+    *colour, radiometric, photometric = words.told(light, scene).rows
+    assert colour == [("Temperature", "6503 K"), ("Duv", "+0.0032"), ("CRI (Ra)", "100")]
+    assert radiometric == ("Intensity", f"{100 / (4 * math.pi):.4g} W/sr")
     d65 = find("D65")
-    assert photometric == f"= {100 / (4 * math.pi) * lumens(d65) / d65.integral():.4g} cd"
+    assert photometric == ("", f"{100 / (4 * math.pi) * lumens(d65) / d65.integral():.4g} cd")
     light.rtb.measure, light.rtb.amount = "CANDELAS", 25
     words.told(light, scene)
     words.tell_wanted()
-    assert words.told(light, scene).lines[2] == "= 25 cd"
+    assert words.told(light, scene).rows[-1] == ("", "25 cd")
+    light.rtb.amount = 12345.6
+    words.told(light, scene)
+    words.tell_wanted()
+    assert words.told(light, scene).rows[-1] == ("", "12350 cd")
     light.rtb.spectrum = "D64"
     words.told(light, scene)
     words.tell_wanted()

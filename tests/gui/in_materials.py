@@ -117,9 +117,9 @@ def lamps(driver: Driver):
     for _ in range(50):
         driver.area("PROPERTIES").tag_redraw()
         yield 0.2
-        if words.told(light, bpy.context.scene).lines:
+        if words.told(light, bpy.context.scene).rows:
             break
-    driver.report["told"] = words.told(light, bpy.context.scene).lines
+    driver.report["told"] = words.told(light, bpy.context.scene).rows
     yield 0.6
     driver.photograph("light-lux")
 

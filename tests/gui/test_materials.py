@@ -45,10 +45,11 @@ def test_a_panel_of_many_spectra_draws_at_once(report):
 
 
 def test_the_lamps_panel_tells_what_its_light_comes_to(report):
-    colour, radiometric, photometric = report["told"]
-    assert colour.startswith("4225 K") or colour.startswith("4224 K")
-    assert radiometric.startswith("Intensity")
-    assert photometric == "= 500 cd"
+    told = dict(report["told"])
+    assert told["Temperature"] == "4225 K"
+    assert told["CRI (Ra)"] == "64"
+    assert told["Intensity"].endswith("W/sr")
+    assert told[""] == "500 cd"
 
 
 def test_the_installed_zip_brings_its_materials_to_the_asset_browser(report):
