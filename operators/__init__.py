@@ -49,15 +49,14 @@ from .show_montage import RTB_OT_show_montage
 from .tell import RTB_OT_tell
 from .test_renderers import RTB_OT_test_renderers
 from .turn_page import RTB_OT_turn_page
-from .use_blackbody import RTB_OT_use_blackbody
 from .use_colour import RTB_OT_use_colour
-from .use_daylight import RTB_OT_use_daylight
 from .use_flat_spectrum import RTB_OT_use_flat_spectrum
 from .use_library_spectrum import RTB_OT_use_library_spectrum
 from .use_metal import RTB_OT_use_metal
 from .use_spectra import RTB_OT_use_spectra
 from .use_spectrum_file import RTB_OT_use_spectrum_file
 from .use_table import RTB_OT_use_table, RTB_PG_sample
+from .use_temperature import RTB_OT_use_blackbody, RTB_OT_use_daylight
 from .use_variable import RTB_OT_use_variable
 from .vary_in_recipe import RTB_OT_vary_in_recipe
 from .vary_property import RTB_OT_vary_property

@@ -9,7 +9,8 @@ def describe(cls, context, properties) -> str:
     said = [
         f"{name}={_plain(getattr(properties, name))!r}" for name in names if properties.is_property_set(name)
     ]
-    return f"{cls.__doc__}.\n\nPython: bpy.ops.{cls.bl_idname}({', '.join(said)})"
+    does = cls.does(context, properties) if hasattr(cls, "does") else cls.__doc__
+    return f"{does}.\n\nPython: bpy.ops.{cls.bl_idname}({', '.join(said)})"
 
 
 def add_to(classes) -> None:

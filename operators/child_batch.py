@@ -23,14 +23,14 @@ class ChildBatch:
     ----------
     folder : of the recipe
     conditions : names of those to render; all where there are none
-    heard : called with each event's condition and kind
+    heard : called with each event's condition, kind and, of one that failed, the reason
     """
 
     def __init__(
         self,
         folder: Path,
         conditions: Sequence[str] = (),
-        heard: Callable[[str, str], None] = lambda condition, kind: None,
+        heard: Callable[[str, str, str], None] = lambda condition, kind, reason: None,
     ) -> None:
         self.folder = folder
         self._heard = heard
@@ -106,7 +106,7 @@ class ChildBatch:
         elif event.condition:
             self.under_way.pop(event.condition, None)
         if event.condition:
-            self._heard(event.condition, event.kind)
+            self._heard(event.condition, event.kind, event.message)
         if event.kind == "failed":
             self.failures.append(": ".join(filter(None, (event.condition, event.message))))
         if event.kind == "finished" and event.file:

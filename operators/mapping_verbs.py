@@ -12,6 +12,7 @@ class MappingVerb(TableVerb):
     """A verb on one of the properties that conditions set."""
 
     bl_options = {"REGISTER", "UNDO", "INTERNAL"}
+    edits_scene = True
 
     index: bpy.props.IntProperty(name="Mapping", description="Counted from 0", min=0, options={"SKIP_SAVE"})
 

@@ -21,8 +21,9 @@ class RenderVerb:
             folder = findings.exported(read_recipe(context.scene))
         except RecipeError as error:
             return findings.refuse(self, error)
-        row_states.begin(context.scene)
-        batch = running.start(folder, self.chosen(context))
+        chosen = self.chosen(context)
+        row_states.begin(context.scene, chosen)
+        batch = running.start(folder, chosen)
         return self._followed(batch) if bpy.app.background else {"FINISHED"}
 
     def chosen(self, context) -> list[str]:

@@ -1,38 +1,79 @@
 """
-How the last batch of this session has left each condition, for the table to show.
+How each condition was left by the batches of this file, for the table to show.
 
-It lives here and not in Blender's data, so that undo and saving do not touch it. A row whose cells have been
-changed since is told from one that is as it was rendered; whether other edits of the scene concern it is
-settled by the next Render Recipe, which renders nothing twice.
+It lives here and not in Blender's data, so that undo does not touch it; a file that is saved takes it along.
+A row whose cells or options have been changed since is told from one that is as it was rendered. Whether an
+edit of something else concerns a row is settled by the next Render Recipe, which renders nothing twice.
 """
 
 from __future__ import annotations
 
+import json
+import zlib
+from collections.abc import Iterable
+from typing import NamedTuple
+
 from ..rtb_addon.blender.folders import recipe_name
 from ..rtb_addon.blender.table_edits import cells_of
+from . import scene_edits
 
-STATES = {"started": "running", "progress": "running", "done": "done", "cached": "done", "failed": "failed"}
+KINDS = {"started": "running", "progress": "running", "done": "done", "cached": "done", "failed": "failed"}
+# What decides how all conditions render, of the scene's own properties.
+_OPTIONS = (
+    *("renderer", "width", "height", "samples", "until_error", "seed", "filter", "integrator", "depth"),
+    *("bands_start", "bands_step", "bands_count", "band_kind", "further", "units", "handedness"),
+)
 
-_cells: dict[str, list[str]] = {}
+
+class Said(NamedTuple):
+    """
+    What the scene said of a condition when it was begun.
+
+    Parameters
+    ----------
+    cells, options : as they were; to the options counts what mappings are written
+    edits : how many times the scene had been edited otherwise, and its frame
+    """
+
+    cells: list[str]
+    options: list[object]
+    edits: tuple[int, int]
+
+
+_begun: dict[str, Said] = {}  # of the batch that is under way, or was the last one
+_said: dict[str, Said] = {}
 _states: dict[str, str] = {}
+_reasons: dict[str, str] = {}
+_versions: dict[str, int] = {}
 _scene = 0
+_count = 0
 
 
-def begin(scene) -> None:
-    """Remember what the table says as a batch begins."""
+def begin(scene, names: Iterable[str] = ()) -> None:
+    """Remember what the table says as a batch of some conditions, or of all of them, begins."""
     global _scene
-    clear()
+    if scene.session_uid != _scene:
+        clear()
     _scene = scene.session_uid
+    chosen, common = set(names), (_options(scene), _edits(scene))
+    _begun.clear()
     for number, row in enumerate(scene.rtb.conditions):
-        _cells[row_name(scene, row, number)] = cells_of(scene.rtb, row)
+        if not chosen or row_name(scene, row, number) in chosen:
+            _begun[row_name(scene, row, number)] = Said(cells_of(scene.rtb, row), *common)
 
 
-def take(condition: str, kind: str) -> None:
-    """Take in what a batch says of a condition."""
-    if kind in STATES:
-        _states[condition] = STATES[kind]
-    else:
+def take(condition: str, kind: str, reason: str = "") -> None:
+    """Take in what a batch says of a condition, and why it failed if it did."""
+    global _count
+    if kind not in KINDS:
         _states.pop(condition, None)
+        return
+    _states[condition], _reasons[condition] = KINDS[kind], reason
+    if condition in _begun:
+        _said[condition] = _begun[condition]
+    if kind == "done":
+        _count += 1
+        _versions[condition] = _count
 
 
 def end() -> None:
@@ -43,8 +84,8 @@ def end() -> None:
 
 def clear() -> None:
     """Forget everything."""
-    _cells.clear()
-    _states.clear()
+    for known in (_begun, _said, _states, _reasons, _versions):
+        known.clear()
 
 
 def known(scene) -> bool:
@@ -53,12 +94,73 @@ def known(scene) -> bool:
 
 
 def state(scene, row, number: int) -> str:
-    """Return running, done, failed, changed (since it was done) or nothing, of a row; numbers begin at 0."""
+    """
+    Return how a row is; numbers begin at 0.
+
+    Returns
+    -------
+    running, failed, done, nothing where it was never rendered; of one that was done: changed, where its cells
+    or the options are others now, unchecked, where something else of the scene has been edited
+    """
+    if scene.session_uid != _scene:
+        return ""
     name = row_name(scene, row, number)
     found = _states.get(name, "")
-    return "changed" if found == "done" and _cells.get(name) != cells_of(scene.rtb, row) else found
+    if found != "done" or (said := _said.get(name)) is None:
+        return found
+    if said.cells != cells_of(scene.rtb, row) or said.options != _options(scene):
+        return "changed"
+    return "done" if said.edits == _edits(scene) else "unchecked"
+
+
+def state_of(scene, name: str) -> str:
+    """Return the same for the row of a name, nothing where there is none."""
+    rows = enumerate(scene.rtb.conditions)
+    return next((state(scene, row, k) for k, row in rows if row_name(scene, row, k) == name), "")
+
+
+def reason(name: str) -> str:
+    """Return why a condition failed, nothing where nobody knows."""
+    return _reasons.get(name, "")
+
+
+def version(name: str) -> int:
+    """Return a number that is another one once a condition has been rendered anew."""
+    return _versions.get(name, 0)
 
 
 def row_name(scene, row, number: int) -> str:
     """Return the name that a condition has in the recipe."""
     return row.name.strip() or f"{recipe_name(scene)}-{number + 1:03}"
+
+
+def keep(scenes) -> None:
+    """Write into a file that is about to be saved what was done of its conditions."""
+    for scene in scenes:
+        if scene.session_uid != _scene:
+            continue
+        for number, row in enumerate(scene.rtb.conditions):
+            name = row_name(scene, row, number)
+            said = _said.get(name) if _states.get(name) == "done" else None
+            row.rendered = "" if said is None else json.dumps([name, said.cells, said.options])
+
+
+def remember(scene) -> None:
+    """Take in what a file that was opened says of its conditions; whether they still fit nobody knows."""
+    global _scene
+    clear()
+    _scene = scene.session_uid
+    for row in scene.rtb.conditions if hasattr(scene, "rtb") else ():
+        if row.rendered:
+            name, cells, options = json.loads(row.rendered)
+            _states[name], _said[name] = "done", Said(cells, options, (-1, 0))
+
+
+def _options(scene) -> list[object]:
+    text = scene.rtb.mappings_text
+    written = 0 if text is None else zlib.crc32(text.as_string().encode())
+    return [*(getattr(scene.rtb, name) for name in _OPTIONS), written]
+
+
+def _edits(scene) -> tuple[int, int]:
+    return scene_edits.count, scene.frame_current

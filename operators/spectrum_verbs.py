@@ -8,6 +8,7 @@ from ..rtb_addon.blender import preview
 from ..rtb_addon.blender.fields import FIELDS, ITEMS, owner_of
 from ..rtb_addon.blender.redrawing import redraw_panels
 from ..rtb_addon.errors import RecipeError
+from . import scene_edits
 
 
 class SpectrumVerb:
@@ -24,18 +25,8 @@ class SpectrumVerb:
         except RecipeError as error:
             self.report({"ERROR"}, str(error))
             return {"CANCELLED"}
+        if owner.bl_rna.identifier != "RTB_PG_cell":
+            scene_edits.note()
         preview.refresh()
         redraw_panels()
         return {"FINISHED"}
-
-
-class AskingVerb(SpectrumVerb):
-    """One that asks for a number or a colour first."""
-
-    def invoke(self, context, event):
-        return context.window_manager.invoke_props_dialog(self, confirm_text="Use")
-
-    def draw(self, context):
-        self.layout.use_property_split = True
-        self.layout.use_property_decorate = False
-        self.layout.prop(self, self.asked)

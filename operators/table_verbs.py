@@ -3,12 +3,14 @@
 from ..rtb_addon.blender import preview
 from ..rtb_addon.blender.redrawing import redraw_panels
 from ..rtb_addon.errors import RecipeError
+from . import scene_edits
 
 
 class TableVerb:
     """An operator that edits a scene's table, or says in a sentence why it cannot and changes nothing."""
 
     bl_options = {"REGISTER", "UNDO"}
+    edits_scene = False  # whether it is more than the table that it edits
 
     def execute(self, context):
         try:
@@ -16,6 +18,8 @@ class TableVerb:
         except RecipeError as error:
             self.report({"ERROR"}, str(error))
             return {"CANCELLED"}
+        if self.edits_scene:
+            scene_edits.note()
         preview.refresh()
         redraw_panels()
         if said:

@@ -9,6 +9,7 @@ from __future__ import annotations
 import bpy
 
 from ..rtb_addon.blender import migration, preview
+from . import row_states, scene_edits, thumbnails
 from .preferences import begin_file
 from .render_engine import ENGINE
 
@@ -27,6 +28,7 @@ def _show_again(*_) -> None:
 def _before_saving(*_) -> None:
     preview.take_back()
     migration.migrate()
+    row_states.keep(bpy.data.scenes)
 
 
 @bpy.app.handlers.persistent
@@ -35,6 +37,8 @@ def _after_loading(*_) -> None:
     bpy.context.window_manager.rtb_preview = False
     migration.migrate()
     begin_file()
+    row_states.remember(bpy.context.scene)
+    scene_edits.listen()
 
 
 @bpy.app.handlers.persistent
@@ -71,6 +75,8 @@ def register() -> None:
         update=_toggled,
         options={"SKIP_SAVE"},
     )
+    scene_edits.register()
+    thumbnails.register()
     for name, act in _watched().items():
         if hasattr(bpy.app.handlers, name):
             getattr(bpy.app.handlers, name).append(act)
@@ -81,6 +87,8 @@ def unregister() -> None:
     for name, act in _watched().items():
         if act in getattr(bpy.app.handlers, name, ()):
             getattr(bpy.app.handlers, name).remove(act)
+    thumbnails.unregister()
+    scene_edits.unregister()
     if hasattr(bpy.data, "scenes"):  # not while Blender ends
         preview.take_back()
     del bpy.types.WindowManager.rtb_preview

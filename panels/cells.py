@@ -9,22 +9,34 @@ from .spectrum_menus import draw_menu
 _VIEWS = {"NUMBER": ("number", 1), "COLOUR": ("colour", 3)}
 
 
-def draw_cell(layout, cell, kind: str, emboss: bool = False) -> None:
-    """Draw the field of a cell; a text that is not of its type stays a text, in red."""
-    view, count = _VIEWS.get(kind, ("value", 0))
+def draw_cell(layout, cell, kind: str) -> None:
+    """Draw the field of a cell among others of its row; what is not of its type stays a text, in red."""
     if kind == "OBJECT":
-        layout.prop_search(cell, "value", bpy.data, "objects", text="")
-    elif count and len(numbers_of(cell.value)) != count:
-        red = layout.row(align=True)
-        red.alert = bool(cell.value.strip())
-        red.prop(cell, "value", text="", emboss=emboss)
+        line = layout.row(align=True)
+        line.alert = bool(cell.value) and cell.value not in bpy.data.objects
+        line.prop(cell, "value", text="", emboss=False)
+    elif kind == "SPECTRUM":
+        layout.prop(cell, "short", text="", emboss=False)
     else:
-        layout.prop(cell, view, text="", emboss=emboss or view == "colour")
+        _draw_field(layout, cell, kind, emboss=False)
 
 
 def draw_wide_cell(layout, cell, kind: str) -> None:
     """Draw the field of a cell with all the width there is, and the menu of spectra where one may stand."""
     line = layout.row(align=True)
-    draw_cell(line, cell, kind, emboss=True)
+    if kind == "OBJECT":
+        line.prop_search(cell, "value", bpy.data, "objects", text="")
+        return
+    _draw_field(line, cell, kind, emboss=True)
     if kind in ("SPECTRUM", "TEXT"):
         draw_menu(line, "CELL")
+
+
+def _draw_field(layout, cell, kind: str, emboss: bool) -> None:
+    view, count = _VIEWS.get(kind, ("value", 0))
+    if count and len(numbers_of(cell.value)) != count:
+        red = layout.row(align=True)
+        red.alert = bool(cell.value.strip())
+        red.prop(cell, "value", text="", emboss=emboss)
+    else:
+        layout.prop(cell, view, text="", emboss=emboss or view == "colour")

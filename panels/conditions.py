@@ -2,12 +2,13 @@
 
 import bpy
 
-from ..operators import row_states, running
+from ..operators import row_states, running, thumbnails
 from ..operators.add_condition import RTB_OT_add_condition
 from ..operators.add_variable import RTB_OT_add_variable
 from ..operators.move_condition import RTB_OT_move_condition
 from ..operators.remove_condition import RTB_OT_remove_condition
 from ..operators.select_variable import RTB_OT_select_variable
+from ..operators.show_condition import RTB_OT_show_condition
 from ..operators.turn_page import RTB_OT_turn_page
 from ..rtb_addon.blender import preview
 from .cells import draw_cell, draw_wide_cell
@@ -17,7 +18,8 @@ from .sentences import draw_sentences
 CELL = 66  # narrowest cell in which a word can be read [pixels at scale 1]
 BESIDE = 52  # what borders and the buttons at the right take [pixels at scale 1]
 ROWS = 6
-ICONS = {"running": "TIME", "done": "CHECKMARK", "failed": "ERROR", "changed": "FILE_REFRESH", "": "BLANK1"}
+ICONS = {"running": "TIME", "done": "CHECKMARK", "unchecked": "CHECKMARK", "": "RADIOBUT_OFF"}
+ICONS |= {"failed": "ERROR", "changed": "FILE_REFRESH"}
 
 
 class RTB_UL_conditions(bpy.types.UIList):
@@ -29,6 +31,7 @@ class RTB_UL_conditions(bpy.types.UIList):
         row, scene = layout.row(align=True), context.scene
         if row_states.known(scene):
             draw_state(row, scene, item, index)
+            row.separator(factor=0.3)
         name = row_states.row_name(scene, item, index)
         row.prop(item, "name", text="", emboss=False, placeholder=name)
         for number in columns_shown(context):
@@ -70,13 +73,20 @@ def columns_shown(context) -> range:
 
 
 def draw_state(layout, scene, row, index: int) -> None:
-    """Draw how a row is: an icon, or how far it is while it renders."""
-    state = row_states.state(scene, row, index)
+    """Draw how a row is: an icon, its rendering where that is of the row, or how far it is."""
+    state, name = row_states.state(scene, row, index), row_states.row_name(scene, row, index)
     under_way = {} if running.batch is None else running.batch.under_way
-    if state == "running" and (name := row_states.row_name(scene, row, index)) in under_way:
+    if state == "running" and name in under_way:
         layout.progress(factor=under_way[name], type="RING")
-    else:
-        layout.label(text="", icon=ICONS[state])
+        return
+    cell = layout.row(align=True)
+    cell.active, cell.alert = state not in ("", "unchecked"), state == "failed"
+    picture = 0
+    if state in ("done", "unchecked"):
+        picture = thumbnails.icon(scene, name, row_states.version(name), dim=state == "unchecked")
+        cell.active = cell.active or picture > 0  # which is dim by itself
+    shown = {"icon_value": picture} if picture else {"icon": ICONS[state]}
+    cell.operator(RTB_OT_show_condition.bl_idname, text="", emboss=False, **shown).condition = name
 
 
 def draw_preview(layout, context) -> None:
@@ -101,6 +111,7 @@ def draw_header(layout, context, settings) -> None:
     names = outer.row(align=True)
     if row_states.known(context.scene):
         names.label(text="", icon="BLANK1")
+        names.separator(factor=0.3)
     names.label(text="Name")
     for number in shown:
         active = number == settings.active_variable

@@ -7,12 +7,12 @@ of JSON; pictures and pixels cross as files.
 
 from __future__ import annotations
 
-import dataclasses
+import base64
 import json
 import queue
 import signal
-from collections.abc import Callable, Mapping
-from dataclasses import dataclass, field, replace
+from collections.abc import Callable, Mapping, Sequence
+from contextlib import suppress
 from pathlib import Path
 from typing import Any
 
@@ -22,41 +22,16 @@ from .errors import RecipeError, RenderingError
 from .files import replacing
 from .lifeline import stop_for_good, watch_parent
 
-MOST_PIXELS = 2_500_000  # of a picture; more than a screen shows only costs Blender time
-MEMORY = 500_000_000  # of cubes that are kept [bytes]
 GRACE = 0.5  # [s]
-
-
-@dataclass(frozen=True)
-class Look:
-    """
-    What a picture is wanted of.
-
-    Parameters
-    ----------
-    folder : of the recipe
-    output : the picture's file
-    renderer : instead of the recipe's own
-    condition : the one to show; empty: all of them
-    other : the condition that differences are to
-    view : words of a View
-    """
-
-    folder: str
-    output: str
-    renderer: str = ""
-    condition: str = ""
-    other: str = ""
-    view: Mapping[str, Any] = field(default_factory=dict)
 
 
 class Viewer:
     """Answers requests, and keeps what it has read as long as the files stay as they are."""
 
     def __init__(self) -> None:
-        self._cubes: dict[Path, tuple[int, Any]] = {}
-        self._seen: dict[tuple, np.ndarray] = {}
-        self._brightest: dict[tuple[Path, int], float] = {}
+        from .kept_cubes import KeptCubes
+
+        self._kept = KeptCubes()
 
     def answer(self, request: Mapping[str, Any]) -> dict[str, Any]:
         """Return the answer to a request; one that cannot be met gets a sentence."""
@@ -64,6 +39,7 @@ class Viewer:
             "wake": self.wake,
             "look": self.look,
             "probe": self.probe,
+            "thumbnails": self.thumbnails,
             "develop": self.develop,
         }
         words = dict(request)
@@ -78,92 +54,49 @@ class Viewer:
         import OpenEXR  # noqa: F401
         from PIL import Image  # noqa: F401
 
-        from . import montage, recipe  # noqa: F401
+        from . import looks  # noqa: F401
 
         return {}
 
     def look(self, **words: Any) -> dict[str, Any]:
         """Draw a picture into a file and return what is where in it."""
-        from .recipe import Recipe
-        from .views import Tiles, View, single
+        from .looks import Look, draw_look
 
-        look = Look(**words)
-        view = View(**look.view)
-        recipe = Recipe.load(look.folder).overridden(renderer=look.renderer or None)
-        names = [look.condition] if look.condition else [each.name for each in recipe.conditions]
-        files = [_file_of(recipe, name) for name in names]
-        other = _file_of(recipe, look.other) if view.kind == "difference" and look.other else None
-        first = self._cube(next((file for file in files if file.is_file()), files[0]))
-        height, width, _ = first.radiance.shape
-        by = _reduction(len(files) * height * width)
-        options = single(recipe.montage) if look.condition else recipe.montage
-        cells = [self._part(file, view, other, by) if file.is_file() else None for file in files]
-        pixels, full = view.drawn(cells, options)
-        _write_picture(Path(look.output), pixels)
-        tiles = Tiles.of(names, (width, height), options, by)
-        return {
-            "file": look.output,
-            "folder": look.folder,
-            "name": recipe.name,
-            "renderer": files[0].parent.name,
-            "tiles": tiles.to_words(),
-            "full": full,
-            "view": dataclasses.asdict(view),
-            "bands": first.bands.centres.tolist(),
-            "edges": first.bands.edges.tolist(),
-            "there": [name for name, cell in zip(names, cells, strict=True) if cell is not None],
-        }
+        return draw_look(Look(**words), self._kept)
 
     def probe(self, folder: str, renderer: str, condition: str, region: list[int]) -> dict[str, Any]:
         """Return what light comes from a region of a condition."""
-        from .probing import Region, brightest, probed
+        from .looks import file_of
+        from .probing import Region, probed
         from .recipe import Recipe
 
-        file = _file_of(Recipe.load(folder).overridden(renderer=renderer or None), condition)
-        cube = self._cube(file)
-        key = file, self._cubes[file][0]
-        if key not in self._brightest:
-            self._brightest[key] = brightest(cube)
-        return {"probe": probed(cube, condition, Region(*region), self._brightest[key]).to_words()}
+        file = file_of(Recipe.load(folder).overridden(renderer=renderer or None), condition)
+        probe = probed(self._kept.cube(file), condition, Region(*region), self._kept.brightest(file))
+        return {"probe": probe.to_words()}
+
+    def thumbnails(self, folder: str, names: Sequence[str], side: int) -> dict[str, Any]:
+        """Return a small picture of each condition that is rendered: RGBA bytes, the lowest row first."""
+        from .looks import file_of
+        from .recipe import Recipe
+        from .thumbnails import thumbnail
+
+        recipe, pictures = Recipe.load(folder), {}
+        for name in names:
+            with suppress(RecipeError):
+                picture = thumbnail(self._kept.cube(file_of(recipe, name)), side)
+                pictures[name] = base64.b64encode(picture[::-1].tobytes()).decode()
+        return {"pictures": pictures}
 
     def develop(self, cube: str, matrix: list[list[float]], output: str) -> dict[str, Any]:
         """Write X, Y, Z times a matrix and alpha 1 as 32-bit numbers, the lowest row first."""
         from .colorimetry import xyz
 
-        colours = xyz(self._cube(Path(cube))) @ np.array(matrix).T
+        colours = xyz(self._kept.cube(Path(cube))) @ np.array(matrix).T
         pixels = np.ones((*colours.shape[:2], 4), np.float32)
         pixels[..., :3] = colours
         with replacing(Path(output)) as temporary:
             temporary.write_bytes(pixels[::-1].tobytes())
         return {"width": colours.shape[1], "height": colours.shape[0]}
-
-    def _part(self, file: Path, view: Any, other: Path | None, by: int) -> np.ndarray:
-        """Return what is to be seen of a cube, found out once."""
-        from .views import reduced
-
-        stamps = [each.stat().st_mtime_ns for each in (file, other) if each is not None and each.is_file()]
-        key = file, other, by, replace(view, full=None), *stamps
-        if key not in self._seen:
-            for old in [each for each in self._seen if each[3] != key[3]]:
-                del self._seen[old]
-            beside = None if other is None else self._cube(other)
-            self._seen[key] = reduced(view.of(self._cube(file), beside), by)
-        return self._seen[key]
-
-    def _cube(self, file: Path) -> Any:
-        """Return a cube; those that were looked at last are kept."""
-        from .spectral_image import SpectralImage
-
-        if not file.is_file():
-            raise RecipeError(f"{file.stem} is not rendered yet, press Render Recipe")
-        stamp = file.stat().st_mtime_ns
-        known = self._cubes.pop(file, None)
-        if known is None or known[0] != stamp:
-            known = stamp, SpectralImage.load(file)
-        self._cubes[file] = known
-        while len(self._cubes) > 1 and sum(cube.radiance.nbytes for _, cube in self._cubes.values()) > MEMORY:
-            del self._cubes[next(iter(self._cubes))]
-        return known[1]
 
 
 def main() -> None:
@@ -181,29 +114,6 @@ def main() -> None:
     while line := requests.get():
         outgoing.write(json.dumps(viewer.answer(json.loads(line))) + "\n")
         outgoing.flush()
-
-
-def _write_picture(path: Path, pixels: np.ndarray) -> None:
-    """Write a picture in the form that Blender reads soonest: it does so where its window waits."""
-    from PIL import Image
-
-    with replacing(path) as temporary:
-        Image.fromarray(pixels).save(temporary, format="TIFF")
-
-
-def _file_of(recipe: Any, name: str) -> Path:
-    condition = next((each for each in recipe.conditions if each.name == name), None)
-    if condition is None:
-        raise RecipeError(f"{recipe.folder} holds no condition {name}, press Render Recipe")
-    return recipe.rendering_file(condition)
-
-
-def _reduction(pixels: int) -> int:
-    """Return how many pixels across and down become one, so that a picture is not larger than need be."""
-    by = 1
-    while pixels > MOST_PIXELS * by * by:
-        by += 1
-    return by
 
 
 if __name__ == "__main__":

@@ -22,7 +22,7 @@ from .table_edits import SPECTRA
 from .varied import Place, changed_along, found_at, give_back, kept_value, set_value, value_at
 
 _CAMERA = "camera"
-_state: dict = {"suspended": 0, "problems": []}
+_state: dict = {"suspended": 0, "problems": [], "shown": False}
 
 
 def is_on() -> bool:
@@ -40,6 +40,7 @@ def refresh() -> None:
     with _paused():  # what is set here asks for no refreshing
         take_back()
         _state["problems"] = show(bpy.context.scene) if is_on() else []
+        _state["shown"] |= len(bpy.context.scene.rtb.kept) > 0
 
 
 def begin_rendering(scene, of_ours: bool) -> None:
@@ -52,6 +53,12 @@ def begin_rendering(scene, of_ours: bool) -> None:
 def problems() -> list[str]:
     """Return a sentence for each thing that the preview cannot show."""
     return _state["problems"]
+
+
+def has_just_shown() -> bool:
+    """Return whether something was shown or taken back since somebody asked this: no edit of the user's."""
+    shown, _state["shown"] = _state["shown"], False
+    return shown
 
 
 def show(scene) -> list[str]:
@@ -90,6 +97,7 @@ def take_back(scenes=None) -> None:
                 _give_back(kept)
         if len(settings.kept):
             settings.kept.clear()
+            _state["shown"] = True
 
 
 @contextmanager

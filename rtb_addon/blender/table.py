@@ -13,6 +13,7 @@ from ..scene.collada.write_numbers import shortest
 from ..spectra import Spectrum, Unit
 from ..spectra.files import spd_text
 from ..spectra.spoken import spectrum_from
+from .baked import at_condition
 from .conditions import IMAGE_NAME
 from .own_spectra import own_folders
 from .statements import Named, Picture, Spoken, Statement, Varied
@@ -100,8 +101,9 @@ class Table:
         if not alone:
             self.variables.append(variable)
         for row in range(len(self.names)):
-            said = [self._cell(row, each, spoken.owner) for each in used]
-            self.cells[row][variable] = fill(self.filled_in(row, spoken), "-".join(said))
+            said, text = [self._cell(row, each, spoken.owner) for each in used], self.filled_in(row, spoken)
+            with at_condition(self.names[row]):
+                self.cells[row][variable] = fill(text, "-".join(said))
         self._columns[spoken.treatment] = variable
         return variable
 

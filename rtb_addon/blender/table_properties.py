@@ -13,6 +13,7 @@ from bpy.props import (
     StringProperty,
 )
 
+_FILES = (".spd", ".csv", ".mat", ".txt")  # whose folders say where they lie
 KINDS = (
     ("TEXT", "Text", "Anything that is typed", 1),
     ("NUMBER", "Number", "A number", 2),
@@ -55,6 +56,21 @@ def _set_colour(cell, value) -> None:
     cell.value = " ".join(map(in_digits, value))
 
 
+def _short(cell) -> str:
+    name = cell.value.rpartition("/")[2]
+    return name if name and not name.lower().endswith(_FILES) else cell.value
+
+
+def _set_short(cell, text: str) -> None:
+    if text == _short(cell):
+        return
+    from ..spectra.library import names  # brings numpy, which enabling need not wait for
+    from .own_spectra import own_folders
+
+    beside = f"{cell.value.rpartition('/')[0]}/{text}"
+    cell.value = beside if beside in names(own_folders()) else text
+
+
 def spoken_cell(variable, text: str) -> str:
     """Return a cell as it would be typed for a spectrum: a colour as a spectrum that shows it."""
     numbers = numbers_of(text)
@@ -75,13 +91,18 @@ def in_digits(value: float) -> str:
 
 
 class RTB_PG_cell(bpy.types.PropertyGroup):
-    """What one condition says for one variable: a text, which number and colour are other views of."""
+    """What one condition says for one variable: a text, of which there are other views."""
 
     value: StringProperty(name="Value", description="Text of this cell", update=row_chosen)
     number: FloatProperty(name="Value", description="Number of this cell", get=_number, set=_set_number)
     colour: FloatVectorProperty(
         name="Value", description="Colour of this cell", subtype="COLOR", min=0.0, max=1.0,
         get=_colour, set=_set_colour,
+    )  # fmt: skip
+    short: StringProperty(
+        name="Value",
+        description="Spectrum of this cell, without its chart's name; so is another one of that chart called",
+        get=_short, set=_set_short,
     )  # fmt: skip
 
 
@@ -95,6 +116,8 @@ class RTB_PG_condition(bpy.types.PropertyGroup):
     """A row of the conditions; its name names its files. Cells are in the order of the variables."""
 
     cells: CollectionProperty(type=RTB_PG_cell)
+    # What a file that was saved tells of its rendering: name, cells and options then.
+    rendered: StringProperty(options={"HIDDEN"})
 
 
 class RTB_PG_mapping(bpy.types.PropertyGroup):

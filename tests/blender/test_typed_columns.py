@@ -38,6 +38,19 @@ def test_a_field_and_its_text_are_the_same_cell(empty, view, value, text):
     assert (tuple(found) if view == "colour" else found) == pytest.approx(value, rel=1e-7)
 
 
+def test_a_spectrum_of_a_chart_is_called_briefly_and_so_are_others_of_it(empty):
+    empty.set_conditions(["v"], [["BabelColor Average/blue"]])
+    cell = empty.conditions[0].cells[0]
+    assert cell.short == "blue"
+    cell.short = "blue"
+    assert cell.value == "BabelColor Average/blue"
+    cell.short = "yellow green"
+    assert cell.value == "BabelColor Average/yellow green"
+    for text in ("0.5", "D65", "//spectra/paint.spd", "300:1 800:2"):
+        cell.short = text
+        assert (cell.value, cell.short) == (text, text)
+
+
 def test_the_type_changes_and_the_cells_stay(settings):
     before = table(settings)
     bpy.ops.rtb.set_variable_kind(kind="COLOUR")

@@ -1,5 +1,6 @@
 """Ways to look at cubes, the grid they lie in, and the child that draws them."""
 
+import base64
 import json
 from dataclasses import replace
 
@@ -15,8 +16,10 @@ from rtb_addon.recipe import Recipe
 from rtb_addon.recipe.options import MontageOptions
 from rtb_addon.spectra import Bands
 from rtb_addon.spectral_image import SpectralImage
+from rtb_addon.thumbnails import thumbnail
+from rtb_addon.tiles import Tiles
 from rtb_addon.viewer import Viewer
-from rtb_addon.views import Tiles, View, false_colours, reduced
+from rtb_addon.views import View, false_colours, reduced
 
 BANDS = Bands.regular(400, 50, 7)
 NAMES = ("red", "green", "blue", "grey", "white")
@@ -130,8 +133,8 @@ def test_cubes_of_other_sizes_have_no_difference():
 def test_every_pixel_of_a_montage_is_found_again(fill, by):
     tiles = Tiles.of(NAMES, (6, 4), MontageOptions(columns=2, fill=fill), by)
     assert Tiles.from_words(json.loads(json.dumps(tiles.to_words()))) == tiles
-    for name in NAMES:
-        left, top = tiles.corner(name)
+    for number, name in enumerate(NAMES):
+        left, top = tiles.corner(number)
         for column, row in ((0, 0), (6 // by - 1, 4 // by - 1)):
             place = left + column + 0.25, top + row + 0.25
             assert tiles.at(*place) == (name, int((column + 0.25) * by), int((row + 0.25) * by))
@@ -156,6 +159,28 @@ def test_an_edited_cube_is_looked_at_anew(recipe):
     file = recipe.rendering_file(recipe.conditions["red"])
     cube(0).scaled(2).save(file)
     assert viewer.answer(request)["full"] == pytest.approx(2 * before)
+
+
+@pytest.mark.parametrize(("height", "width"), [(4, 6), (96, 64), (9, 100)])
+def test_a_small_picture_keeps_the_shape_of_a_cube_and_is_as_bright_as_can_be(height, width):
+    flat = SpectralImage(np.full((height, width, len(BANDS)), 0.003, np.float32), BANDS)
+    picture = thumbnail(flat, 32)
+    there = picture[..., 3] == 255
+    rows, columns = np.flatnonzero(there.any(axis=1)), np.flatnonzero(there.any(axis=0))
+    assert picture.shape == (32, 32, 4)
+    assert len(rows) / len(columns) == pytest.approx(height / width, abs=0.5 / len(columns))
+    assert max(len(rows), len(columns)) == min(32, max(height, width))
+    assert there.sum() == len(rows) * len(columns)
+    assert picture[~there].max(initial=0) == 0
+    assert picture[there][:, :3].max() == 255
+
+
+def test_small_pictures_of_what_is_rendered_come_from_the_lowest_row_up(recipe):
+    request = {"verb": "thumbnails", "folder": str(recipe.folder), "names": [*NAMES, "gone"], "side": 8}
+    pictures = Viewer().answer(request)["pictures"]
+    assert sorted(pictures) == sorted({*NAMES} - {"blue"})
+    came = np.frombuffer(base64.b64decode(pictures["red"]), np.uint8).reshape(8, 8, 4)
+    np.testing.assert_array_equal(came[::-1], thumbnail(cube(0), 8))
 
 
 def test_a_developed_cube_is_its_colours_from_the_lowest_row_up(recipe, tmp_path):
