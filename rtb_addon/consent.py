@@ -8,13 +8,11 @@ from __future__ import annotations
 
 import hashlib
 import json
-import os
-import sys
 import time
-from pathlib import Path
 from typing import Any
 
 from .files import write_text
+from .user_folders import settings_folder
 
 STORE = "trusted-code.json"
 
@@ -35,28 +33,17 @@ def withdraw_consent(code: bytes) -> None:
     _write({digest: words for digest, words in _agreed().items() if digest != _digest(code)})
 
 
-def user_folder() -> Path:
-    """Return where this system keeps a user's settings of programs, a folder of ours in it."""
-    if sys.platform == "win32":
-        place = Path(os.environ.get("APPDATA") or Path.home() / "AppData" / "Roaming")
-    elif sys.platform == "darwin":
-        place = Path.home() / "Library" / "Application Support"
-    else:
-        place = Path(os.environ.get("XDG_CONFIG_HOME") or Path.home() / ".config")
-    return place / "render-toolbox"
-
-
 def _digest(code: bytes) -> str:
     return hashlib.sha256(code).hexdigest()
 
 
 def _agreed() -> dict[str, Any]:
     try:
-        words = json.loads((user_folder() / STORE).read_text(encoding="utf-8"))
+        words = json.loads((settings_folder() / STORE).read_text(encoding="utf-8"))
     except (OSError, ValueError, RuntimeError):  # the last where nobody knows the user's home
         return {}
     return words if isinstance(words, dict) else {}
 
 
 def _write(agreed: dict[str, Any]) -> None:
-    write_text(user_folder() / STORE, json.dumps(agreed, indent=2, ensure_ascii=False) + "\n")
+    write_text(settings_folder() / STORE, json.dumps(agreed, indent=2, ensure_ascii=False) + "\n")

@@ -13,6 +13,7 @@ from rtb_addon.errors import RecipeError
 from rtb_addon.recipe import Recipe
 from rtb_addon.recipe.problems import check_recipe
 from rtb_addon.spectral_image import SpectralImage
+from rtb_addon.user_folders import settings_folder
 
 # Paints the square in the grey that a row names.
 CODE = """\
@@ -100,7 +101,7 @@ def test_consent_holds_for_these_bytes_and_no_others(remodeled):
 
 def test_a_spoilt_store_of_consent_is_no_consent(remodeled):
     recipe = remodeled()
-    file = consent.user_folder() / consent.STORE
+    file = settings_folder() / consent.STORE
     file.parent.mkdir(parents=True)
     for text in ("{", "[]", '"x"'):
         file.write_text(text)

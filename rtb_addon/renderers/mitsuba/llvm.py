@@ -18,6 +18,7 @@ from pathlib import Path
 
 from ...errors import RecipeError
 from ...files import write_text
+from ...user_folders import cache_folder
 
 VARIABLE = "DRJIT_LIBLLVM_PATH"
 # The first version whose x86 code generator knows what drjit asks for.
@@ -103,17 +104,6 @@ def probe(path: str) -> bool | None:
     except (OSError, subprocess.TimeoutExpired):
         return None
     return child.returncode == 0 and child.stdout.rstrip().endswith("renders")
-
-
-def cache_folder() -> Path:
-    """Return the folder for what can be found out again."""
-    if sys.platform == "win32":
-        base = Path(os.environ.get("LOCALAPPDATA") or Path.home() / "AppData" / "Local")
-    elif sys.platform == "darwin":
-        base = Path.home() / "Library" / "Caches"
-    else:
-        base = Path(os.environ.get("XDG_CACHE_HOME") or Path.home() / ".cache")
-    return base / "render_toolbox"
 
 
 def _chosen() -> list[str]:
