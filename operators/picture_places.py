@@ -9,6 +9,8 @@ from . import montages, viewing
 if TYPE_CHECKING:
     from ..rtb_addon.probing import Region
 
+Box = tuple[float, float, float, float]  # left, bottom, right and top in an Image Editor's region [pixels]
+
 
 def shows_renderings(context) -> bool:
     """Whether the Image Editor in hand shows what the viewer has drawn."""
@@ -30,18 +32,33 @@ def pixel_within(context, condition: str, x: float, y: float) -> tuple[int, int]
     return viewing.tiles().within(condition, *_place(context, x, y))
 
 
-def box_of(region, condition: str, pixels: Region) -> tuple[float, float, float, float]:
-    """Return left, bottom, right and top of a region of a condition, in an Image Editor's region [pixels]."""
+def box_of(region, condition: str, pixels: Region) -> Box | None:
+    """Return where a region of a condition is shown, None where it is not in the picture."""
     tiles = viewing.tiles()
-    width, height = tiles.size
-    left, top = tiles.corner(condition)
-    columns = left + pixels.left / tiles.reduced, left + (pixels.left + pixels.width) / tiles.reduced
-    rows = top + (pixels.top + pixels.height) / tiles.reduced, top + pixels.top / tiles.reduced
-    corners = zip(columns, rows, strict=True)
-    (x1, y1), (x2, y2) = (
-        region.view2d.view_to_region(column / width, 1 - row / height, clip=False) for column, row in corners
+    right, bottom = pixels.left + pixels.width, pixels.top + pixels.height
+    if condition not in tiles.names or right > tiles.width or bottom > tiles.height:
+        return None
+    left, top = tiles.corner(tiles.names.index(condition))
+    return _seen_box(
+        region,
+        (left + pixels.left / tiles.reduced, left + right / tiles.reduced),
+        (top + pixels.top / tiles.reduced, top + bottom / tiles.reduced),
     )
-    return x1, y1, x2, y2
+
+
+def tile_box(region, number: int) -> Box:
+    """Return where a condition of the montage is shown, numbers begin at 0."""
+    left, top = viewing.tiles().corner(number)
+    width, height = viewing.tiles().tile
+    return _seen_box(region, (left, left + width), (top, top + height))
+
+
+def _seen_box(region, columns: tuple[float, float], rows: tuple[float, float]) -> Box:
+    """Return where a part of the picture, from its upper left corner [pixels of the picture], is shown."""
+    width, height = viewing.tiles().size
+    left, top = region.view2d.view_to_region(columns[0] / width, 1 - rows[0] / height, clip=False)
+    right, bottom = region.view2d.view_to_region(columns[1] / width, 1 - rows[1] / height, clip=False)
+    return left, bottom, right, top
 
 
 def _place(context, x: float, y: float) -> tuple[float, float]:

@@ -46,22 +46,28 @@ def hover(place: Place | None) -> None:
     redraw()
 
 
-def ask(scene, place: Place, then: Callable[[Probe], None], kind: str = "probe") -> None:
-    """Let a function have the probe of a place in the renderings that are shown, else of a scene's recipe."""
+def ask(scene, place: Place, then: Callable[[Probe, str], None], kind: str = "probe") -> None:
+    """
+    Let a function have the probe of a place, and the folder of the recipe.
+
+    The place is in the renderings that are shown; where none are, in those of a scene's recipe.
+    """
     from ..rtb_addon.probing import Probe
+
+    folder = viewing.seen["folder"] if viewing.seen else str(recipe_folder(scene))
+    renderer = viewing.seen["renderer"] if viewing.seen else ""
 
     def arrived(answer: Mapping[str, Any]) -> None:
         global sentence
         sentence = answer.get("sentence", "")
         if not sentence:
-            then(Probe.from_words(answer["probe"]))
+            then(Probe.from_words(answer["probe"]), folder)
 
-    where = viewing.seen or {"folder": str(recipe_folder(scene)), "renderer": ""}
-    source = {"folder": where["folder"], "renderer": where["renderer"]}
-    viewing.ask(kind, {"verb": "probe", **source, "condition": place[0], "region": list(place[1])}, arrived)
+    request = {"verb": "probe", "folder": folder, "renderer": renderer}
+    viewing.ask(kind, {**request, "condition": place[0], "region": list(place[1])}, arrived)
 
 
-def add(probe: Probe, compared: bool) -> None:
+def add(probe: Probe, folder: str, compared: bool) -> None:
     """Keep a probe as a pin; a compared one belongs to the active pin, or to what that is compared to."""
     window_manager = bpy.context.window_manager
     pins, first = window_manager.rtb_pins, active(window_manager) if compared else None
@@ -70,10 +76,17 @@ def add(probe: Probe, compared: bool) -> None:
     pin = pins.add()
     pin.number, pin.first, pin.colour = number, reference, COLOURS[(number - 1) % len(COLOURS)]
     pin.name = f"{probe.condition} {probe.region.left}, {probe.region.top}"
-    pin.words = json.dumps(probe.to_words())
+    pin.folder, pin.words = folder, json.dumps(probe.to_words())
     window_manager.rtb_active_pin = len(pins) - 1
     redraw_panels()
     redraw()
+
+
+def is_seen(pin) -> bool:
+    """Whether the picture shows what a pin has measured; there must be a picture."""
+    probe, seen = probe_of(pin.words), viewing.seen
+    shown = (seen["folder"], seen["renderer"]) == (pin.folder, probe.renderer)
+    return shown and probe.condition in seen["there"]
 
 
 def active(window_manager):
@@ -105,7 +118,7 @@ def difference_of(first: str, second: str) -> Difference:
 
 def table(pins: Sequence) -> str:
     """Return pins as a table that spreadsheets read."""
-    from ..rtb_addon.probing import csv_text
+    from ..rtb_addon.probe_tables import csv_text
 
     return csv_text([probe_of(pin.words) for pin in pins])
 
@@ -132,7 +145,7 @@ def redraw() -> None:
         montages.redraw(image)
 
 
-def _hover(probe: Probe) -> None:
+def _hover(probe: Probe, folder: str) -> None:
     global hovered
     if under is not None:
         hovered = probe

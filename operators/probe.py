@@ -63,4 +63,4 @@ class RTB_OT_probe(bpy.types.Operator):
 
     def _ask(self, context, place: pins.Place) -> None:
         compare = self.compare  # the operator is gone when the answer comes
-        pins.ask(context.scene, place, lambda probe: pins.add(probe, compare))
+        pins.ask(context.scene, place, lambda probe, folder: pins.add(probe, folder, compare))

@@ -159,7 +159,7 @@ def remember(scene) -> None:
 def _options(scene) -> list[object]:
     text = scene.rtb.mappings_text
     written = 0 if text is None else zlib.crc32(text.as_string().encode())
-    return [*(getattr(scene.rtb, name) for name in _OPTIONS), written]
+    return [*(getattr(scene.rtb, name) for name in _OPTIONS), sorted(scene.rtb.layers), written]
 
 
 def _edits(scene) -> tuple[int, int]:

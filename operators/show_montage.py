@@ -16,15 +16,12 @@ class RTB_OT_show_montage(bpy.types.Operator):
 
     def execute(self, context):
         try:
-            file = montage_file(context.scene)
+            if bpy.app.background:
+                montages.load(montage_file(context.scene), recipe_name(context.scene))
+            else:
+                viewing.show(recipe_folder(context.scene), open_editor=True)
         except RecipeError as error:
             return findings.refuse(self, error)
-        # Here is the picture that the last batch left; that of the view comes when it is drawn.
-        image = montages.load(file, recipe_name(context.scene))
-        if not bpy.app.background:
-            area = montages.editor(context) or montages.split_viewport(context)
-            montages.show(image, area)
-            viewing.show(recipe_folder(context.scene))
         return {"FINISHED"}
 
 

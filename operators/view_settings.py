@@ -27,6 +27,7 @@ KINDS = (
         "How far each spectrum is from that of another condition, in false colours",
         4,
     ),
+    ("error", "Standard Error", "How uncertain each spectrum is, in false colours", 5),
 )
 _RECIPES = ("recipe", "The Recipe's", "Whatever the recipe is rendered by", 0)
 
@@ -128,6 +129,7 @@ class RTB_PG_pin(bpy.types.PropertyGroup):
     number: IntProperty(name="Number", description="That the picture shows beside it")
     colour: FloatVectorProperty(name="Colour", subtype="COLOR_GAMMA", size=3, min=0.0, max=1.0)
     first: IntProperty(name="Compared To", description="Number of the pin that it is compared to, or 0")
+    folder: StringProperty(name="Recipe", description="Folder of the recipe that it was measured in")
     words: StringProperty(name="Probe", description="What was measured, as JSON")
 
 

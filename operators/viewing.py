@@ -13,12 +13,14 @@ from typing import TYPE_CHECKING, Any
 import bpy
 
 from ..rtb_addon.blender.folders import recipe_folder
+from ..rtb_addon.blender.properties import RTB_PG_scene
 from ..rtb_addon.blender.redrawing import redraw_panels
 from ..rtb_addon.errors import RecipeError
 from . import montages
+from .tell import tell
 
 if TYPE_CHECKING:
-    from ..rtb_addon.views import Tiles
+    from ..rtb_addon.tiles import Tiles
     from .viewer_child import ViewerChild
 
 INTERVAL = 0.02  # [s] between two looks at what the child has answered
@@ -26,6 +28,7 @@ FILE = "images/view.tif"
 
 seen: Mapping[str, Any] = {}  # what the picture shows, as the viewer answered; empty while there is none
 sentence = ""  # why the last wish could not be met
+_tiles: Tiles | None = None
 _child: ViewerChild | None = None
 _opening = False
 _followed: tuple[Path, int] | None = None
@@ -42,8 +45,8 @@ def show(folder: Path, open_editor: bool = False) -> None:
     global _opening
     _opening = _opening or open_editor
     view = bpy.context.window_manager.rtb_view
-    request = {"verb": "look", "folder": str(folder), "output": str(folder / FILE), **view.request()}
-    ask("look", request, _arrived)
+    request = {"verb": "look", "folder": str(folder), "output": str(folder / FILE), "grid": _grid(folder)}
+    ask("look", {**request, **view.request()}, _arrived)
 
 
 def follow(batch) -> None:
@@ -71,6 +74,21 @@ def refresh(scene) -> None:
             _complain(str(error))
 
 
+def _grid(folder: Path) -> dict[str, Any]:
+    """Return how the scene in hand arranges its montage, nothing where the folder is another recipe's."""
+    settings = bpy.context.scene.rtb
+    if not _is_folder_of(bpy.context.scene, folder):
+        return {}
+    return {"columns": settings.montage_columns or None, "fill": settings.montage_fill}
+
+
+def _is_folder_of(scene, folder: Path) -> bool:
+    try:
+        return folder == recipe_folder(scene)
+    except RecipeError:
+        return False
+
+
 def ask(kind: str, request: dict[str, Any], then: Callable[[Mapping[str, Any]], None]) -> None:
     """Ask the viewer, starting it if need be; without a window wait for its answer."""
     from .viewer_child import ViewerChild  # brings subprocess and more, which enabling need not wait for
@@ -93,15 +111,19 @@ def wait() -> None:
 
 def tiles() -> Tiles:
     """Return what lies where in the picture; there must be one."""
-    from ..rtb_addon.views import Tiles
+    assert _tiles is not None
+    return _tiles
 
-    return Tiles.from_words(seen["tiles"])
+
+def shows(scene) -> bool:
+    """Whether the picture is of a scene's recipe."""
+    return bool(seen) and _is_folder_of(scene, Path(seen["folder"]))
 
 
 def forget() -> None:
     """End the viewer and forget what it showed."""
-    global seen, sentence, _child, _opening, _followed
-    seen, sentence, _opening, _followed = {}, "", False, None
+    global seen, sentence, _tiles, _child, _opening, _followed
+    seen, sentence, _tiles, _opening, _followed = {}, "", None, False, None
     if _child is not None:
         _child.stop()
         _child = None
@@ -119,24 +141,29 @@ def _take() -> float | None:
 
 def _arrived(answer: Mapping[str, Any]) -> None:
     """Show a picture that has come, or keep in mind why there is none."""
-    global seen, sentence, _opening
+    from ..rtb_addon.tiles import Tiles
+
+    global seen, sentence, _tiles, _opening
+    opening, _opening = _opening, False
     if "sentence" in answer:
-        _complain(answer["sentence"])
+        _complain(answer["sentence"], aloud=opening)
         return
-    seen, sentence = answer, ""
+    seen, sentence, _tiles = answer, "", Tiles.from_words(answer["tiles"])
     image = montages.load(Path(answer["file"]), answer["name"])
-    if _opening and not bpy.app.background:
+    if opening and not bpy.app.background:
         area = montages.editor(bpy.context) or montages.split_viewport(bpy.context)
         if area is not None:
             montages.show(image, area)
-    _opening = False
     redraw_panels()
     montages.redraw(image)
 
 
-def _complain(words: str) -> None:
+def _complain(words: str, aloud: bool = False) -> None:
+    """Keep in mind what is wrong; aloud where no panel may be there to say it."""
     global sentence
     sentence = words
+    if aloud:
+        tell("ERROR", words)
     redraw_panels()
 
 
@@ -145,12 +172,22 @@ def _before_loading(*_) -> None:
     forget()
 
 
+def _arranged_anew() -> None:
+    refresh(bpy.context.scene)
+
+
 def register() -> None:
-    """Watch for another file being opened."""
+    """Watch for another file being opened, and for a montage that is arranged anew."""
     bpy.app.handlers.load_pre.append(_before_loading)
+    for name in ("montage_columns", "montage_fill"):
+        key = RTB_PG_scene, name
+        bpy.msgbus.subscribe_rna(
+            key=key, owner=_arranged_anew, args=(), notify=_arranged_anew, options={"PERSISTENT"}
+        )
 
 
 def unregister() -> None:
     """Leave no child and no timer behind."""
     forget()
+    bpy.msgbus.clear_by_owner(_arranged_anew)
     bpy.app.handlers.load_pre.remove(_before_loading)

@@ -9,7 +9,7 @@ from .condition_menus import RTB_MT_conditions, RTB_MT_designs, RTB_MT_variable
 from .conditions import RTB_PT_conditions, RTB_UL_conditions
 from .mappings import RTB_PT_mappings
 from .material_presets import RTB_PT_material_presets
-from .recipe import RTB_PT_montage, RTB_PT_recipe
+from .recipe import RTB_PT_recipe
 from .render_settings import RTB_PT_render_settings
 from .spectral_emission import RTB_PT_spectral_emission
 from .spectral_light import RTB_PT_spectral_light
@@ -20,7 +20,6 @@ _register, _unregister = register_classes_factory(
     (
         RTB_PT_recipe,
         RTB_PT_render_settings,
-        RTB_PT_montage,
         spectrum_menus.RTB_MT_spectrum,
         RTB_UL_conditions,
         RTB_MT_designs,

@@ -4,9 +4,11 @@ from bpy.utils import register_classes_factory
 
 from . import overlay, probe_tool
 from .probes import RTB_PT_probes, RTB_UL_pins
-from .rendering import RTB_PT_rendering
+from .rendering import RTB_PT_montage, RTB_PT_rendering
 
-_register, _unregister = register_classes_factory((RTB_PT_rendering, RTB_UL_pins, RTB_PT_probes))
+_register, _unregister = register_classes_factory(
+    (RTB_PT_rendering, RTB_PT_montage, RTB_UL_pins, RTB_PT_probes)
+)
 
 
 def register() -> None:

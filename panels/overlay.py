@@ -1,15 +1,14 @@
-"""Over the Image Editor: the scale of false colours, pins, and the plate of the probe."""
+"""Over the Image Editor: names, the scale of false colours, pins, and the plate of the probe."""
 
 from __future__ import annotations
 
 import bpy
 
 from ..operators import pins, viewing
-from ..operators.picture_places import box_of, shows_renderings
+from ..operators.picture_places import Box, box_of, shows_renderings
+from . import captions, colour_bar
 
 WHITE = (1.0, 1.0, 1.0)
-BAR, THICK, EDGE = 160, 12, 14  # of the scale [pixels at scale 1]
-NAMES = {"wavelength": "W/(sr m² nm)", "luminance": "cd/m²", "difference": "W/(sr m² nm)"}
 
 _handler = None
 
@@ -17,61 +16,42 @@ _handler = None
 def draw() -> None:
     """Draw what lies over the picture; Blender calls this for each Image Editor."""
     context = bpy.context
-    if not shows_renderings(context):
+    if not shows_renderings(context) or not context.space_data.overlay.show_overlays:
         return
-    view = viewing.seen["view"]
-    if view["kind"] in NAMES:
-        draw_scale(context, view["kind"])
+    captions.draw(context)
+    if viewing.seen["view"]["kind"] != "srgb":
+        colour_bar.draw(*room(context)[:2])
     for pin in context.window_manager.rtb_pins:
         draw_pin(context, pin)
     if pins.under is not None and pins.under[1][2:] != (1, 1):
         draw_box(context, pins.under, (*WHITE, 0.9))
 
 
-def draw_scale(context, kind: str) -> None:
-    """Draw the scale of a view at the lower left corner: from 0 to what the last colour stands for."""
-    from . import strokes
-
-    unit = strokes.scale()
-    left, bottom, *_ = room(context)
-    left, bottom = left + EDGE * unit, bottom + (EDGE + 16) * unit
-    right, top = left + BAR * unit, bottom + THICK * unit
-    strokes.fill(
-        left - 8 * unit, bottom - 22 * unit, right + 8 * unit, top + 22 * unit, (0.07, 0.07, 0.07, 0.85)
-    )
-    colours = _greys() if kind == "wavelength" else _false_colours()
-    step = (right - left) / len(colours)
-    for place, colour in enumerate(colours):
-        strokes.fill(left + place * step, bottom, left + (place + 1) * step, top, colour)
-    ink, full = (*WHITE, 1.0), viewing.seen["full"]
-    for share, align in ((0.0, 0.0), (0.5, 0.5), (1.0, 1.0)):
-        strokes.words(f"{share * full:.3g}", left + share * (right - left), bottom - 14 * unit, ink, align)
-    strokes.words(f"{_title(kind)} {NAMES[kind]}", left, top + 7 * unit, ink)
-
-
 def draw_pin(context, pin) -> None:
-    """Draw where a pin lies, in its colour, with its number."""
+    """Draw where a pin lies, in its colour, with its number, if the picture shows what it has measured."""
     from . import strokes
 
-    probe = pins.probe_of(pin.words)
-    if probe.condition not in viewing.seen["there"]:
+    if not pins.is_seen(pin):
         return
-    colour = (*pin.colour, 1.0)
-    right, top = draw_box(context, (probe.condition, tuple(probe.region)), colour)
-    strokes.words(str(pin.number), right + 4 * strokes.scale(), top - 4 * strokes.scale(), colour)
+    probe, colour = pins.probe_of(pin.words), (*pin.colour, 1.0)
+    box = draw_box(context, (probe.condition, tuple(probe.region)), colour)
+    if box is not None:
+        strokes.words(str(pin.number), box[2] + 4 * strokes.scale(), box[3] - 4 * strokes.scale(), colour)
 
 
-def draw_box(context, place: pins.Place, colour) -> tuple[float, float]:
-    """Draw the edge of a region, at least as large as can be seen, and return its upper right corner."""
+def draw_box(context, place: pins.Place, colour) -> Box | None:
+    """Draw the edge of a region, at least as large as can be seen, and return it."""
     from ..rtb_addon.probing import Region
     from . import strokes
 
-    left, bottom, right, top = box_of(context.region, place[0], Region(*place[1]))
+    if (found := box_of(context.region, place[0], Region(*place[1]))) is None:
+        return None
+    left, bottom, right, top = found
     grow = max(3 * strokes.scale() - min(right - left, top - bottom) / 2, 0)
     box = left - grow, bottom - grow, right + grow, top + grow
     strokes.frame(*box, (0.0, 0.0, 0.0, 0.6), 3.0)
     strokes.frame(*box, colour, 1.5)
-    return box[2], box[3]
+    return box
 
 
 def draw_plate(context, x: float, y: float) -> None:
@@ -118,23 +98,6 @@ def _difference(pin, probe):
 def _where(probe) -> str:
     left, top, width, height = probe.region
     return f"{probe.condition}  {left}, {top}" + (f"  {width} × {height}" if probe.region.pixels > 1 else "")
-
-
-def _title(kind: str) -> str:
-    if kind != "wavelength":
-        return kind.capitalize()
-    nearest = min(viewing.seen["bands"], key=lambda nm: abs(nm - viewing.seen["view"]["wavelength"]))
-    return f"{nearest:g} nm"
-
-
-def _greys():
-    return [(level, level, level, 1.0) for level in (share / 63 for share in range(64))]
-
-
-def _false_colours():
-    from ..rtb_addon.views import false_colours
-
-    return [(*(part / 255 for part in colour), 1.0) for colour in false_colours()[::4].tolist()]
 
 
 def register() -> None:

@@ -16,6 +16,7 @@ PLOT = 92  # height of the axes [pixels at scale 1]
 LEFT = 52  # room for the numbers beside them [pixels at scale 1]
 BESIDE = 18  # from the pointer [pixels at scale 1]
 GROUND, INK, FAINT = (0.07, 0.07, 0.07, 0.9), (0.92, 0.92, 0.92, 1.0), (0.92, 0.92, 0.92, 0.22)
+UNIT = "W/(sr m² nm)"
 STEP = 100  # between two wavelengths that are written [nm]
 Curve = tuple["Probe", Sequence[float]]
 
@@ -47,16 +48,19 @@ def draw(
     curves : with their colours, the first one on top
     """
     unit = strokes.scale()
-    width = min(WIDTH * unit, room[2] - room[0])
-    height = (PLOT + (len(rows) + 2.6) * ROW + 2 * EDGE) * unit
+    width, edge, step = min(WIDTH * unit, room[2] - room[0]), EDGE * unit, ROW * unit
+    inside = width - 2 * edge
+    head = [strokes.shortened(title, inside), strokes.shortened(UNIT, inside)]
+    foot = [line for row in rows for line in strokes.broken(row, inside)]
+    height = PLOT * unit + (len(head) + len(foot) + 1.6) * step + 2 * edge
     left, bottom = _corner(x, y, room, width, height, BESIDE * unit)
-    top, edge, step = bottom + height, EDGE * unit, ROW * unit
+    top = bottom + height
     strokes.fill(left, bottom, left + width, top, GROUND)
-    strokes.words(title, left + edge, top - edge - 0.7 * step, INK)
-    strokes.words("W/(sr m² nm)", left + width - edge, top - edge - 0.7 * step, INK, align=1.0)
-    for place, row in enumerate(rows):
-        strokes.words(row, left + edge, bottom + edge + (len(rows) - 1 - place) * step, INK)
-    low = bottom + edge + (len(rows) + 1) * step
+    for place, row in enumerate(head):
+        strokes.words(row, left + edge, top - edge - (0.7 + place) * step, INK)
+    for place, row in enumerate(foot):
+        strokes.words(row, left + edge, bottom + edge + (len(foot) - 1 - place) * step, INK)
+    low = bottom + edge + (len(foot) + 1) * step
     _draw_plot((left + LEFT * unit, low, left + width - edge, low + PLOT * unit), curves)
 
 

@@ -83,6 +83,7 @@ def measured(probe) -> list[tuple[str, str]]:
     """Return the numbers of a probe with their names."""
     error = f" ± {probe.luminance_error:.2g}" if probe.region.pixels > 1 else ""
     return [
+        ("Renderer", probe.renderer),
         ("Pixels", f"{probe.region.width} × {probe.region.height}"),
         ("Luminance", f"{number(probe.luminance)}{error} cd/m²"),
         ("CIE xy", f"{probe.xy[0]:.4f}  {probe.xy[1]:.4f}"),

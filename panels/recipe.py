@@ -71,29 +71,3 @@ def draw_culprit(layout, sentence: str) -> None:
             RTB_OT_select_culprit.bl_idname, text="", icon="RESTRICT_SELECT_OFF", emboss=False
         )
         button.kind, button.name = culprit.kind.upper(), culprit.name
-
-
-class Details:
-    """A closed part of the recipe's panel."""
-
-    bl_space_type = "VIEW_3D"
-    bl_region_type = "UI"
-    bl_category = "RenderToolbox"
-    bl_parent_id = RTB_PT_recipe.bl_idname
-    bl_options = {"DEFAULT_CLOSED"}
-
-    def draw(self, context):
-        self.layout.use_property_split = True
-        self.layout.use_property_decorate = False
-        for names in self.properties:
-            column = self.layout.column(align=True)
-            for name in names:
-                column.prop(context.scene.rtb, name)
-
-
-class RTB_PT_montage(Details, bpy.types.Panel):
-    """How the renderings become one picture"""
-
-    bl_idname = "RTB_PT_montage"
-    bl_label = "Montage"
-    properties = (("montage_columns", "montage_fill"),)

@@ -4,7 +4,6 @@ import bpy
 
 from ..operators import running, viewing
 from ..operators.show_montage import RTB_OT_show_montage
-from ..rtb_addon.blender.folders import recipe_name
 from .numbers import draw_numbers, number
 from .progress import draw_progress
 from .sentences import draw_sentences
@@ -23,10 +22,11 @@ class RTB_PT_rendering(bpy.types.Panel):
         layout = self.layout
         layout.use_property_split = True
         layout.use_property_decorate = False
-        layout.label(text=recipe_name(context.scene), icon="RENDERLAYERS")
         if running.batch is not None:
             draw_progress(layout, running.batch)
-        if not viewing.seen and not viewing.sentence:
+        if viewing.seen and not viewing.shows(context.scene):
+            draw_sentences(layout, [f"The picture is of {viewing.seen['name']}"], context.region.width)
+        if not viewing.shows(context.scene) and not viewing.sentence:
             layout.operator(RTB_OT_show_montage.bl_idname, icon="IMAGE_DATA")
             return
         draw_view(layout, context.window_manager.rtb_view)
@@ -52,3 +52,22 @@ def draw_view(layout, view) -> None:
         unit = "cd/m²" if light else "W/(sr m² nm)"
         draw_numbers(column, [("White", f"{number(viewing.seen['full'])} {unit}")])
     layout.prop(view, "renderer")
+
+
+class RTB_PT_montage(bpy.types.Panel):
+    """How the renderings become one picture"""
+
+    bl_idname = "RTB_PT_montage"
+    bl_label = "Montage"
+    bl_space_type = "IMAGE_EDITOR"
+    bl_region_type = "UI"
+    bl_category = "RenderToolbox"
+    bl_parent_id = RTB_PT_rendering.bl_idname
+    bl_options = {"DEFAULT_CLOSED"}
+
+    def draw(self, context):
+        self.layout.use_property_split = True
+        self.layout.use_property_decorate = False
+        column = self.layout.column(align=True)
+        column.prop(context.scene.rtb, "montage_columns", text="Columns")
+        column.prop(context.scene.rtb, "montage_fill", text="Order")

@@ -36,21 +36,45 @@ def frame(left: float, bottom: float, right: float, top: float, colour: Colour, 
     line(((left, bottom), (right, bottom), (right, top), (left, top), (left, bottom)), colour, width)
 
 
-def words(text: str, x: float, y: float, colour: Colour, align: float = 0.0, size: float = SIZE) -> float:
+def words(text: str, x: float, y: float, colour: Colour, align: float = 0.0) -> None:
     """
-    Write a line of text and return its width [pixels].
+    Write a line of text.
 
     Parameters
     ----------
     x, y : of its base line
     align : what part of its width lies left of x
     """
-    blf.size(FONT, size * scale())
-    width = blf.dimensions(FONT, text)[0]
+    left = x - align * width_of(text) if align else x
+    blf.size(FONT, SIZE * scale())
     blf.color(FONT, *colour)
-    blf.position(FONT, x - align * width, y, 0)
+    blf.position(FONT, left, y, 0)
     blf.draw(FONT, text)
-    return width
+
+
+def width_of(text: str) -> float:
+    """Return how wide a line of text is [pixels]."""
+    blf.size(FONT, SIZE * scale())
+    return blf.dimensions(FONT, text)[0]
+
+
+def shortened(text: str, room: float) -> str:
+    """Return a text that is no wider than there is room [pixels]; what does not fit becomes an ellipsis."""
+    if width_of(text) <= room:
+        return text
+    kept = next((n for n in range(len(text) - 1, 0, -1) if width_of(f"{text[:n].rstrip()}…") <= room), 0)
+    return f"{text[:kept].rstrip()}…" if kept else ""
+
+
+def broken(text: str, room: float) -> list[str]:
+    """Return a text in lines that are no wider than there is room [pixels], broken between its words."""
+    lines: list[str] = []
+    for word in text.split(" "):
+        if lines and width_of(f"{lines[-1]} {word}") <= room:
+            lines[-1] += f" {word}"
+        else:
+            lines.append(word)
+    return [shortened(line, room) for line in lines]
 
 
 def _draw(

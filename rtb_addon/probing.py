@@ -2,9 +2,7 @@
 
 from __future__ import annotations
 
-import csv
-import io
-from collections.abc import Mapping, Sequence
+from collections.abc import Mapping
 from dataclasses import asdict, dataclass
 from typing import Any, NamedTuple
 
@@ -13,9 +11,8 @@ import numpy as np
 from .colorimetry import xyz
 from .colour_difference import delta_e, lab, white
 from .errors import RecipeError
-from .observers import CONES, lms
+from .observers import lms
 from .spectra import FloatArray
-from .spectra.text import format_number
 from .spectral_image import SpectralImage
 
 
@@ -55,6 +52,7 @@ class Probe:
     xyz : CIE 1931 tristimulus values [cd m-2]
     lms : what the cones catch, by the fundamentals of CIE 170-1:2006 for 2 degrees [W sr-1 m-2]
     white : luminance of the brightest pixel of the condition [cd m-2]
+    renderer : that has rendered it, where the cube says so
     """
 
     condition: str
@@ -67,6 +65,7 @@ class Probe:
     xyz: tuple[float, ...]
     lms: tuple[float, ...]
     white: float
+    renderer: str = ""
 
     @classmethod
     def from_words(cls, words: Mapping[str, Any]) -> Probe:
@@ -121,6 +120,7 @@ def probed(cube: SpectralImage, condition: str, region: Region, white: float | N
         xyz=_listed(tristimulus.mean(axis=0)),
         lms=_listed(lms(mean, cube.bands)),
         white=brightest(cube) if white is None else white,
+        renderer=cube.attributes.get("renderer", ""),
     )
 
 
@@ -138,24 +138,6 @@ def difference(first: Probe, second: Probe) -> Difference:
     return Difference(float(delta_e(*colours)), contrast)
 
 
-def csv_text(probes: Sequence[Probe]) -> str:
-    """
-    Return probes as a table that spreadsheets read: what they are, then a row for each wavelength.
-
-    Notes
-    -----
-    Differences are those to the first probe. Two columns a probe: mean, and its standard error.
-    """
-    table = io.StringIO()
-    rows = csv.writer(table, lineterminator="\n")
-    for heading, values in _headings(probes):
-        rows.writerow([heading, *(cell for value in values for cell in (value, ""))])
-    rows.writerow(["wavelength [nm]", *("mean [W sr-1 m-2 nm-1]", "standard error") * len(probes)])
-    for nm in sorted({nm for probe in probes for nm in probe.wavelengths}):
-        rows.writerow([format_number(nm), *(cell for probe in probes for cell in _at(probe, nm))])
-    return table.getvalue()
-
-
 def _pixels(cube: SpectralImage, region: Region) -> FloatArray:
     """Return a region's spectra in double precision, (pixels, bands)."""
     height, width, bands = cube.radiance.shape
@@ -164,43 +146,6 @@ def _pixels(cube: SpectralImage, region: Region) -> FloatArray:
         raise RecipeError(f"a picture of {width} x {height} pixels has no region {tuple(region)}")
     part = cube.radiance[region.top : bottom, region.left : right]
     return part.reshape(-1, bands).astype(float)
-
-
-def _headings(probes: Sequence[Probe]) -> list[tuple[str, list[str]]]:
-    differences = [difference(probes[0], probe) for probe in probes]
-    named = [
-        ("condition", [probe.condition for probe in probes]),
-        ("region [left top width height]", [" ".join(map(str, probe.region)) for probe in probes]),
-        ("luminance [cd m-2]", [f"{probe.luminance:.6g}" for probe in probes]),
-        ("its standard error", [f"{probe.luminance_error:.3g}" for probe in probes]),
-        ("x", [f"{probe.xy[0]:.5f}" for probe in probes]),
-        ("y", [f"{probe.xy[1]:.5f}" for probe in probes]),
-    ]
-    cones = [
-        (f"{cone} (CIE 170-1:2006 2 degrees) [W sr-1 m-2]", [f"{probe.lms[number]:.6g}" for probe in probes])
-        for number, cone in enumerate(CONES)
-    ]
-    if len(probes) == 1:
-        return named + cones
-    to_first = [
-        (
-            f"delta E 2000 to the first (white D65 at {probes[0].white:.6g} cd m-2)",
-            [f"{each.delta_e:.4f}" for each in differences],
-        ),
-        *(
-            (f"{cone} contrast to the first", [f"{each.cone_contrast[number]:.5f}" for each in differences])
-            for number, cone in enumerate(CONES)
-        ),
-    ]
-    return named + cones + to_first
-
-
-def _at(probe: Probe, nm: float) -> tuple[str, str]:
-    """Return a probe's mean and its error at a wavelength, nothing where it has no band."""
-    if nm not in probe.wavelengths:
-        return "", ""
-    place = probe.wavelengths.index(nm)
-    return f"{probe.radiance[place]:.7g}", f"{probe.standard_error[place]:.3g}"
 
 
 def _error_of_mean(values: FloatArray) -> FloatArray:

@@ -127,7 +127,8 @@ def test_pins_go_to_a_file(folder, window_manager, tmp_path):
     assert bpy.ops.rtb.export_pins(filepath=str(tmp_path / "pins.csv")) == {"FINISHED"}
     lines = (tmp_path / "pins.csv").read_text().splitlines()
     assert lines[0] == "condition,blue,"
-    assert len(lines) == 9 + 1 + 31
+    assert lines[1] == "renderer,tracer,"
+    assert len(lines) == 10 + 1 + 31
 
 
 def drawn(module, name: str, kind: str) -> RecordingLayout:

@@ -94,8 +94,8 @@ def test_many_errors_do_not_push_the_panel_off_the_screen(panel, running):
     assert "34 more" in labels[-1]
 
 
-def test_the_recipes_details_draw_properties_that_exist(panel, running):
-    assert panel("recipe", "RTB_PT_montage").names("prop") == ["montage_columns", "montage_fill"]
+def test_how_the_montage_is_arranged_stands_beside_it(panel, running):
+    assert panel("rendering", "RTB_PT_montage").names("prop") == ["montage_columns", "montage_fill"]
 
 
 @pytest.mark.parametrize("engine", ["CYCLES", "RENDERTOOLBOX"])

@@ -165,7 +165,7 @@ def place(driver: Driver, condition: str, across: float, down: float) -> tuple[f
     """Return where in the window a part of a condition's tile is shown."""
     viewing = extension("operators.viewing")
     tiles, region = viewing.tiles(), driver.region("IMAGE_EDITOR", "WINDOW")
-    left, top = tiles.corner(condition)
+    left, top = tiles.corner(tiles.names.index(condition))
     x, y = left + across * tiles.tile[0], top + down * tiles.tile[1]
     seen = region.view2d.view_to_region(x / tiles.size[0], 1 - y / tiles.size[1], clip=False)
     return region.x + seen[0], region.y + seen[1]

@@ -11,7 +11,8 @@ import pytest
 from rtb_addon.colour_difference import D65, delta_e, lab, white
 from rtb_addon.errors import RecipeError
 from rtb_addon.observers import cie_1931, cone_fundamentals, lms
-from rtb_addon.probing import Probe, Region, csv_text, difference, probed
+from rtb_addon.probe_tables import csv_text
+from rtb_addon.probing import Probe, Region, difference, probed
 from rtb_addon.spectra import DEFAULT_BANDS, Bands, library
 from rtb_addon.spectral_image import SpectralImage
 
@@ -146,7 +147,14 @@ def test_the_table_holds_all_there_is_to_know():
     assert float(rows["550"][0]) == pytest.approx(probes[0].radiance[15], rel=1e-6)
     assert float(rows["550"][2]) == pytest.approx(probes[1].radiance[15], rel=1e-6)
     assert float(rows["M contrast to the first"][2]) == pytest.approx(-0.5)
-    assert len(csv_text(probes[:1]).splitlines()) == 9 + 1 + 31
+    assert len(csv_text(probes[:1]).splitlines()) == 10 + 1 + 31
+
+
+def test_a_probe_says_which_renderer_its_light_is_of():
+    cube = patches(LIGHT).with_attributes({"renderer": "tracer"})
+    probe = probed(cube, "c", Region(0, 0))
+    assert probe.renderer == "tracer"
+    assert csv_text([probe]).splitlines()[1] == "renderer,tracer,"
 
 
 def test_probes_of_other_bands_share_a_table():
