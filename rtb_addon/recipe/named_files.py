@@ -12,7 +12,7 @@ from typing import TYPE_CHECKING
 
 from .. import renderers
 from ..errors import RecipeError
-from ..scene.archives import is_archive, read_archive
+from ..scene.archives import taken_out
 
 if TYPE_CHECKING:
     from ..conditions import Condition
@@ -80,5 +80,5 @@ def texture_names(parent: Path) -> list[str]:
 def _texture_names(file: Path, size: int, time: int) -> list[str]:
     """Return the names in a file; size and time only tell when to look again."""
     content = file.read_bytes()
-    found = _TEXTURE.findall(read_archive(content, file).scene if is_archive(content) else content)
+    found = _TEXTURE.findall(taken_out(content, file)[0])
     return sorted({unescape(name.decode(errors="replace")) for name in found})

@@ -8,7 +8,7 @@ from typing import Any
 
 from ..conditions import Conditions, parse_conditions
 from ..errors import RecipeError
-from ..scene.archives import is_archive, read_archive
+from ..scene.archives import taken_out
 from ..scene.document import Scene
 from . import CONDITIONS, PARENT, Recipe, write_recipe
 from .options import Conventions, MontageOptions, RecipeOptions
@@ -48,10 +48,7 @@ def new_recipe(
     name = folder.absolute().name
     content = parent if isinstance(parent, bytes) else _bytes_of(Path(parent))
     Scene.parse(content, PARENT)
-    packed: dict[str, bytes] = {}
-    if is_archive(content):
-        archive = read_archive(content, PARENT)
-        content, packed = archive.scene, archive.beside_the_scene()
+    content, packed = taken_out(content, PARENT)
     return write_recipe(
         folder,
         name,

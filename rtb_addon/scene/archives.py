@@ -47,6 +47,14 @@ def is_archive(data: bytes) -> bool:
     return data.startswith(b"PK\x03\x04")
 
 
+def taken_out(data: bytes, file: str | Path) -> tuple[bytes, dict[str, bytes]]:
+    """Return a parent scene and the files that came with it in an archive; none where it is no archive."""
+    if not is_archive(data):
+        return data, {}
+    archive = read_archive(data, file)
+    return archive.scene, archive.beside_the_scene()
+
+
 def files_beside(scene: Path) -> dict[str, bytes]:
     """Return the files that a parent scene's archive holds for it; none where it is no archive."""
     with scene.open("rb") as content:

@@ -12,7 +12,7 @@ from urllib.parse import unquote
 
 from ..errors import RecipeError, at, choices
 from .adjustments import Adjustments, Edit, Remark
-from .archives import is_archive, read_archive
+from .archives import taken_out
 from .collada.text import utf8
 from .edits import apply
 from .paths import Element, local_name, parse_path, read
@@ -57,8 +57,7 @@ class Scene:
         """Return the document in some bytes, or in their archive; it may hold no entities."""
         from lxml import etree
 
-        if is_archive(data):
-            data = read_archive(data, file).scene
+        data, _ = taken_out(data, file)
         text, changes = utf8(data, file)
         parser = etree.XMLParser(
             encoding="utf-8", resolve_entities=False, no_network=True, load_dtd=False, huge_tree=True

@@ -18,7 +18,7 @@ FLOORS = {
     "rtb_addon/looks.py": 5,
     "rtb_addon/viewer.py": 5,
     "rtb_addon/worker.py": 5,
-    "rtb_addon/old_recipes.py": 5,
+    "rtb_addon/old_recipes": 5,
     "rtb_addon/compare.py": 5,
     "rtb_addon/montage.py": 4,
     "rtb_addon/renderers": 4,
