@@ -10,7 +10,7 @@ import dataclasses
 import hashlib
 import json
 import os
-from collections.abc import Mapping
+from collections.abc import Callable, Mapping
 from contextlib import suppress
 from functools import cache, lru_cache
 from pathlib import Path
@@ -66,14 +66,7 @@ def key_of(recipe: Recipe, condition: Condition) -> Key:
         return file
 
     remodeler = digest_of(recipe)
-    try:
-        adjustments = adjustments_of(recipe, condition, find_file)
-        applied = plain(adjustments, recipe.folder)
-    except RecipeError:
-        if not remodeler:
-            raise
-        # Nothing runs code only to tell a key: what the code makes right counts as it is written.
-        adjustments, applied = Adjustments(), recipe.mappings_of(condition).text
+    adjustments, applied = _applied(recipe, condition, find_file)
     parent = recipe.parent_file(condition)
     for name in texture_names(parent):
         with suppress(RecipeError):  # whether it is needed is for resolving to say
@@ -93,6 +86,20 @@ def key_of(recipe: Recipe, condition: Condition) -> Key:
         inputs["remodeler"] = remodeler
     text = json.dumps(inputs, sort_keys=True)
     return Key(hashlib.sha256(text.encode()).hexdigest(), adjustments, versions, files, applied)
+
+
+def _applied(
+    recipe: Recipe, condition: Condition, find_file: Callable[[str], Path | None]
+) -> tuple[Adjustments, Any]:
+    """Return the mappings that apply to a condition, and what of them counts."""
+    try:
+        adjustments = adjustments_of(recipe, condition, find_file)
+    except RecipeError:
+        if not digest_of(recipe):
+            raise
+        # Nothing runs code only to tell a key: what the code makes right counts as it is written.
+        return Adjustments(), recipe.mappings_of(condition).text
+    return adjustments, plain(adjustments, recipe.folder)
 
 
 def versions_of(recipe: Recipe, name: str) -> dict[str, Any]:

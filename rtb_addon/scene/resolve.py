@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Iterator
 from dataclasses import dataclass, field, replace
 from pathlib import Path
 from typing import Literal, NamedTuple
@@ -77,9 +77,8 @@ def resolve(
     materials = Materials(document, declared, values, native)
     lights = lights_of(document, placed, declared, values)
     meshes = [each for each in placed if each.kind == "geometry"]
-    shapes, lights = _lit(
-        list(shapes_of(document, meshes, materials, lights.emissions)), lights, document, values
-    )
+    shapes = list(shapes_of(document, meshes, materials, lights.emissions))
+    shapes, lights = _lit(shapes, lights, document, values)
     scene = RenderScene(
         camera=_camera(document, placed, settings),
         shapes=tuple(shapes),
@@ -90,17 +89,15 @@ def resolve(
         integrator=settings.integrator,
         film=settings.film,
     )
-    controllers = [
-        f"{one.name} follows a skeleton or morph and is left out"
-        for one in placed
-        if one.kind == "controller"
-    ]
     remarks = map(str, (*adjustments.remarks, *document.remarks, *materials.unused()))
-    return Resolved(
-        scene,
-        adjustments.native,
-        tuple(dict.fromkeys((*remarks, *left_out(document), *controllers, *values.warnings))),
-    )
+    warnings = (*remarks, *left_out(document), *_controllers(placed), *values.warnings)
+    return Resolved(scene, adjustments.native, tuple(dict.fromkeys(warnings)))
+
+
+def _controllers(placed: list[Instance]) -> Iterator[str]:
+    for one in placed:
+        if one.kind == "controller":
+            yield f"{one.name} follows a skeleton or morph and is left out"
 
 
 def _camera(document: Scene, placed: list[Instance], settings: SceneSettings) -> Camera:
