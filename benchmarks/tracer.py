@@ -19,7 +19,7 @@ from pathlib import Path
 
 import lobe_scenes
 import numpy as np
-from lobe_path import FILM, FILM_AS_SHIPPED, SAMPLES, SPECTRAL, errors, lobe, stock
+from lobe_path import FILM, FILM_AS_SHIPPED, SAMPLES, SPECTRAL, errors, lobe, measured, stock
 
 from rtb_addon.renderers import find
 from rtb_addon.renderers.interface import RenderOptions
@@ -77,25 +77,16 @@ def ways(scene, folder, threads):
 def compare(title, scene, folder, rounds, threads):
     """Print each way's best time and its efficiency."""
     found = ways(scene, folder, threads)
-    seconds, images = {name: [] for name in found}, {name: [] for name in found}
-    for turn in range(rounds + 1):
-        for name, (variant, render) in found.items():
-            session.start(variant, threads)
-            start = time.perf_counter()
-            image = render(turn)
-            # The first round compiles, and starts processes.
-            if turn:
-                seconds[name].append(time.perf_counter() - start)
-                images[name].append(image)
-    efficiency = {name: 1 / (errors(images[name]) * min(seconds[name])) for name in found}
+    seconds, images = measured(found, rounds, threads, time.perf_counter)
+    efficiency = {name: 1 / (errors(images[name]) * seconds[name]) for name in found}
     samples = scene.integrator.samples
     head = f"{title}, {samples} samples | time [s] | Mpaths/s | efficiency over specfilm | and as shipped"
     print(f"\n| {head} |\n| --- | --- | --- | --- | --- |")
     for name in found:
         ratios = (efficiency[name] / efficiency[other] for other in (FILM, FILM_AS_SHIPPED))
         cells = " | ".join(f"{mean:.1f} mean, {median:.1f} median" for mean, median in ratios)
-        best = min(seconds[name])
-        print(f"| {name} | {best:.3f} | {scene.film.width**2 * samples / best / 1e6:.2f} | {cells} |")
+        speed = scene.film.width**2 * samples / seconds[name] / 1e6
+        print(f"| {name} | {seconds[name]:.3f} | {speed:.2f} | {cells} |")
 
 
 def one_process(scene, rounds):
