@@ -103,11 +103,13 @@ def take_back(scenes=None) -> None:
 @contextmanager
 def suspended() -> Iterator[None]:
     """Take the preview back while somebody looks at the scene."""
-    with _paused():
-        take_back()
-        yield
-    if is_on():
-        refresh()
+    try:
+        with _paused():
+            take_back()
+            yield
+    finally:
+        if is_on():
+            refresh()
 
 
 @contextmanager

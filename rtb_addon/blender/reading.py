@@ -3,93 +3,39 @@
 from __future__ import annotations
 
 import json
-from collections import Counter
-from collections.abc import Callable, Mapping, Sequence
-from dataclasses import dataclass, replace
+from collections.abc import Callable, Generator, Mapping, Sequence
+from dataclasses import replace
+from functools import partial
 from pathlib import Path
+from typing import NamedTuple
 
 import bpy
 
-from ..conditions import Condition, Conditions
 from ..errors import RecipeError
 from ..layers import NAMES as LAYERS
-from ..recipe import Conventions, MontageOptions, RecipeOptions, write_recipe
+from ..recipe import Conventions, MontageOptions, RecipeOptions
 from ..recipe.options import section
 from ..scene.collada.write_numbers import shortest
 from ..scene.differences import Told, told_apart
-from .baked import PARENT_COLUMNS, Remodel, at_condition, baked, merged, parent_files
-from .conditions import IMAGE_NAME
-from .evaluation import as_rendered
+from ..spectra import Spectrum, Unit
+from ..spectra.spoken import spectrum_from
+from .baked import PARENT_COLUMNS, Remodel, merged, parent_files
 from .folders import blend_folder, recipe_folder, recipe_name
-from .mapped import set_for, values_for
 from .migration import refuse_newer
-from .parent import Parent, ParentWriter
+from .own_spectra import own_folders
+from .parent import Parent
 from .path_mappings import paths_text
 from .preview import suspended
-from .seen import Seen, seen_in
-from .table import SpectrumFiles, Table, mappings_text
-from .table_properties import spoken_cell
-from .varied import set_value, subject_of, value_at
+from .scene_looks import Look, look_of, looks_in_steps, remodeled_looks
+from .scene_recipe import SceneRecipe
+from .seen import seen_in
+from .spectrum_files import SpectrumFiles
+from .statement_mappings import Hear, mappings_text
+from .table import Table, table_of
 from .written_mappings import declared_in, resources_of, written_mappings
 
 _CAMERA = "camera"
-
-
-@dataclass(frozen=True)
-class SceneRecipe:
-    """
-    A recipe that a scene holds, ready to be written.
-
-    Parameters
-    ----------
-    parent : the parent scene, Collada 1.4.1
-    mappings : text of the mappings file
-    generated : how many of its lines are made from what the scene says elsewhere, the first ones
-    resources : contents of files by their names below resources/
-    report : what had to be assumed or is left out, a sentence each
-    folder : where it is saved unless said otherwise; None while an unsaved .blend file leaves that open
-    """
-
-    name: str
-    options: RecipeOptions
-    conventions: Conventions
-    montage: MontageOptions
-    parent: bytes
-    conditions: Conditions
-    mappings: str
-    generated: int
-    resources: Mapping[str, bytes]
-    provenance: Mapping[str, str]
-    report: tuple[str, ...]
-    folder: Path | None
-
-    def save(self, folder: Path | str | None = None) -> Path:
-        """Write the recipe into a folder, by default its own, and return that."""
-        chosen = Path(folder) if folder is not None else self.folder
-        if chosen is None:
-            raise RecipeError("the recipe's folder is relative to the .blend file: save that first")
-        write_recipe(
-            chosen,
-            self.name,
-            self.options,
-            self.conventions,
-            self.montage,
-            self.parent,
-            self.conditions,
-            self.mappings,
-            self.resources,
-            self.provenance,
-        )
-        return chosen
-
-
-@dataclass(frozen=True)
-class _Look:
-    """A scene at one time: its parent scene, the name of its camera, and remarks."""
-
-    parent: Parent
-    camera: str
-    remarks: tuple[str, ...]
+Finish = Callable[[], SceneRecipe]
 
 
 def read_recipe(scene: bpy.types.Scene, remodel: Remodel | None = None) -> SceneRecipe:
@@ -101,9 +47,31 @@ def read_recipe(scene: bpy.types.Scene, remodel: Remodel | None = None) -> Scene
     remodel : edits the scene for one condition, ``remodel(scene, condition)``; each condition then has its
         own parent scene, and the scene is as before afterwards
     """
+    if remodel is not None:
+        refuse_newer(scene)
+        with suspended():
+            table = table_of(scene, recipe_name(scene))
+            return _finishing(scene, table, remodeled_looks(scene, table, remodel), _all_apart)()
+    steps = read_in_steps(scene)
+    while True:
+        try:
+            next(steps)
+        except StopIteration as end:
+            return end.value()
+
+
+def read_in_steps(scene: bpy.types.Scene) -> Generator[float, None, Finish]:
+    """
+    Look at a scene one condition after the other, and return what makes a recipe of that.
+
+    Yields how much is done, 0 to 1; the scene is as before whenever it does, and must stay so. What is
+    returned needs Blender no more: any thread may call it.
+    """
     refuse_newer(scene)
     with suspended():
-        return _read(scene, remodel)
+        table = table_of(scene, recipe_name(scene))
+        looks = yield from looks_in_steps(scene, table)
+        return _finishing(scene, table, looks, told_apart)
 
 
 def read_rendered(scene: bpy.types.Scene, depsgraph) -> SceneRecipe:
@@ -115,107 +83,82 @@ def read_rendered(scene: bpy.types.Scene, depsgraph) -> SceneRecipe:
     depsgraph : the scene as a render engine is shown it, with its properties as the condition sets them
     """
     refuse_newer(scene)
-    table = _table(scene, recipe_name(scene))
-    if table.names:
-        row = min(scene.rtb.active_condition, len(table.names) - 1)
-        table = Table(table.variables, [table.names[row]], [table.cells[row]])
-    return _recipe(scene, table, [_looked(scene, seen_in(depsgraph))], told_apart)
+    table = table_of(scene, recipe_name(scene))
+    row = min(scene.rtb.active_condition, max(len(table.names) - 1, 0))
+    return _finishing(scene, table.only(row), [look_of(scene, seen_in(depsgraph))], told_apart)()
 
 
-def _read(scene, remodel: Remodel | None) -> SceneRecipe:
-    table = _table(scene, recipe_name(scene))
-    tell_apart = told_apart if remodel is None else lambda contents: Told(contents, {})
-    return _recipe(scene, table, _looks(scene, table, remodel), tell_apart)
+def _finishing(scene, table: Table, looks: list[Look], tell_apart: Callable[[list[bytes]], Told]) -> Finish:
+    """Take in what else the scene says, and return what makes a recipe of it all."""
+    settings, folder, own = scene.rtb, blend_folder(), own_folders()
+    make = partial(
+        SceneRecipe,
+        name=recipe_name(scene),
+        options=_options(scene, _name_cameras(table, looks)),
+        conventions=Conventions(settings.units, settings.handedness),
+        montage=MontageOptions(settings.montage_columns or None, settings.montage_fill),
+        provenance=_provenance(),
+        report=tuple(dict.fromkeys(remark for each in looks for remark in each.remarks)),
+        folder=_folder(scene),
+    )
+    written = Written(written_mappings(scene), declared_in(scene), resources_of(scene))
+
+    def finish() -> SceneRecipe:
+        told = tell_apart([each.parent.content for each in looks])
+        return _finished(make, table, looks, told, written, partial(_heard, folder=folder, own=own))
+
+    return finish
 
 
-def _recipe(
-    scene, table: Table, looks: list[_Look], tell_apart: Callable[[list[bytes]], Told]
+class Written(NamedTuple):
+    """
+    What somebody has written, and not said in Blender.
+
+    Parameters
+    ----------
+    mappings : their text
+    declared : ids of the materials and lights that it declares
+    resources : the files that it may name
+    """
+
+    mappings: str
+    declared: set[str]
+    resources: Mapping[str, bytes]
+
+
+def _finished(
+    make: partial[SceneRecipe],
+    table: Table,
+    looks: Sequence[Look],
+    told: Told,
+    written: Written,
+    hear: Hear,
 ) -> SceneRecipe:
-    name, files = recipe_name(scene), SpectrumFiles()
-    camera = _name_cameras(table, looks)
-    parents = [each.parent for each in looks]
-    names = table.names if len(looks) > 1 else [name]
-    told = tell_apart([each.content for each in parents])
+    """Return a recipe with the parent scenes and the mappings that looks at its scene come to."""
+    base, files = make.keywords["name"], SpectrumFiles()
+    names = table.names if len(looks) > 1 else [base]
     cells, further = parent_files(names, told.contents)
     if further:
         table.varied(PARENT_COLUMNS[0], cells)
-    declared = declared_in(scene)
-    statements = [
-        each for each in merged(names, [one.statements for one in parents]) if each.id not in declared
-    ]
-    mappings = mappings_text(statements, table, files, blend_folder()) + paths_text(told.values, table)
-    generated = mappings.count("\n")
-    return SceneRecipe(
-        name,
-        _options(scene, camera),
-        Conventions(scene.rtb.units, scene.rtb.handedness),
-        MontageOptions(scene.rtb.montage_columns or None, scene.rtb.montage_fill),
-        told.contents[0],
-        table.conditions(name),
-        mappings + written_mappings(scene),
-        generated,
-        {**resources_of(scene), **files.contents, **further},
-        _provenance(),
-        tuple(dict.fromkeys(remark for each in looks for remark in each.remarks)),
-        _folder(scene),
+    statements = merged(names, [each.parent.statements for each in looks])
+    wanted = [each for each in statements if each.id not in written.declared]
+    mappings = mappings_text(wanted, table, files, hear) + paths_text(told.values, table)
+    return make(
+        parent=told.contents[0],
+        conditions=table.conditions(base),
+        mappings=mappings + written.mappings,
+        generated=mappings.count("\n"),
+        resources={**written.resources, **files.contents, **further},
     )
 
 
-def _looks(scene, table: Table, remodel: Remodel | None) -> list[_Look]:
-    """Return the scene once, or as the properties that conditions set and a function make it for each."""
-    mapped = scene.rtb.mappings
-    if remodel is not None:
-
-        def both(scene, condition) -> None:
-            for place, value in values_for(scene.rtb, condition.cells):
-                set_value(place, value)
-            remodel(scene, condition)
-
-        return _baked(scene, table, both if mapped else remodel)
-    if not mapped:
-        return [_look(scene)]
-    if not table.names:
-        raise RecipeError(f"{subject_of(mapped[0])} varies, but there are no conditions: add one")
-    looks: dict[str, _Look] = {}
-    found = []
-    for name, cells in zip(table.names, table.typed, strict=True):
-        with at_condition(name), set_for(scene.rtb, cells):
-            values = repr([value_at(place) for place, _ in values_for(scene.rtb, cells)])
-            found.append(looks[values] if values in looks else looks.setdefault(values, _look(scene)))
-    return found
+def _heard(text: str, unit: Unit, folder: Path | None, own: Sequence[Path]) -> Spectrum:
+    return spectrum_from(text, unit, folder, own)
 
 
-def _look(scene) -> _Look:
-    """Return the scene as it is now."""
-    if scene.camera is None:
-        raise RecipeError(f"the scene {scene.name} has no camera, add one")
-    return _looked(scene, as_rendered(scene, seen_in))
-
-
-def _looked(scene, seen: Seen) -> _Look:
-    """Return a scene as an engine has been shown it."""
-    parent = ParentWriter(seen, scene.name, f"RenderToolbox in Blender {bpy.app.version_string}").write()
-    if not any(each.category == "light" for each in parent.statements):
-        raise RecipeError(f"the scene {scene.name} has no light, add a lamp or let a mesh or the world shine")
-    return _Look(parent, scene.camera.name_full, tuple(seen.remarks))
-
-
-def _baked(scene, table: Table, remodel: Remodel) -> list[_Look]:
-    """Return the scene as a function remodels it for each condition."""
-    if not table.names:
-        raise RecipeError("there are no conditions to remodel the scene for, add one")
-    if own := [each for each in PARENT_COLUMNS if each in table.variables]:
-        raise RecipeError(f"the column {own[0]} is written from what the function does, take it out")
-    rows = zip(table.names, table.typed, strict=True)
-    conditions = [Condition(name, {IMAGE_NAME: name, **cells}, 0) for name, cells in rows]
-    known: dict[bytes, bytes] = {}  # parents that are the same take their room in memory once
-
-    def look() -> _Look:
-        found = _look(scene)
-        found.parent.content = known.setdefault(found.parent.content, found.parent.content)
-        return found
-
-    return baked(scene, conditions, remodel, look)
+def _all_apart(contents: list[bytes]) -> Told:
+    """Leave documents as they are, each in a file of its own."""
+    return Told(contents, {})
 
 
 def _options(scene, camera: str) -> RecipeOptions:
@@ -240,27 +183,7 @@ def _options(scene, camera: str) -> RecipeOptions:
     )
 
 
-def _table(scene, name: str) -> Table:
-    """Return the scene's conditions."""
-    settings = scene.rtb
-    variables = [each.name for each in settings.variables]
-    if twins := [each for each, count in Counter(variables).items() if count > 1 or not each.strip()]:
-        raise RecipeError(f"the variable '{twins[0]}' needs a name that no other one has")
-    names, rows = [], []
-    for number, condition in enumerate(settings.conditions, 1):
-        names.append(condition.name.strip() or f"{name}-{number:03}")
-        cells = [each.value for each in condition.cells]
-        if len(cells) != len(variables):
-            raise RecipeError(
-                f"the condition {names[-1]} has {len(cells)} cells for {len(variables)} variables"
-            )
-        rows.append(dict(zip(variables, cells, strict=True)))
-    kinds = {each.name: each for each in settings.variables}
-    spoken = [{name: spoken_cell(kinds[name], cell) for name, cell in row.items()} for row in rows]
-    return Table(variables, names, rows, spoken)
-
-
-def _name_cameras(table: Table, looks: Sequence[_Look]) -> str:
+def _name_cameras(table: Table, looks: Sequence[Look]) -> str:
     """Return the id of the scene's camera; cameras among the cells, or that vary, become ids as well."""
     ids = [_camera(each.camera, each.parent, "the scene's camera") for each in looks]
     if _CAMERA in table.variables:

@@ -1,51 +1,21 @@
-"""The conditions of a scene with its spectra as files: what was typed becomes what mappings can name."""
+"""The conditions of a scene as they grow columns: what was typed becomes what mappings can name."""
 
 from __future__ import annotations
 
 import re
-from collections.abc import Callable, Iterable, Mapping, Sequence
-from pathlib import Path
+from collections import Counter
+from collections.abc import Callable, Mapping, Sequence
 
 from ..conditions import Condition, Conditions, format_conditions, parse_conditions
 from ..errors import RecipeError
 from ..scene.collada.ids import clean
-from ..scene.collada.write_numbers import shortest
-from ..spectra import Spectrum, Unit
-from ..spectra.files import spd_text
-from ..spectra.spoken import spectrum_from
 from .baked import at_condition
 from .conditions import IMAGE_NAME
-from .own_spectra import own_folders
-from .statements import Named, Picture, Spoken, Statement, Varied
+from .statements import Spoken
+from .table_properties import spoken_cell
 
 _VARIABLE = re.compile(r"\(([^()]+)\)")
-_FOLDER = "resources"
-
-
-class SpectrumFiles:
-    """The spectra and pictures of a recipe as files below resources/, each content once under each name."""
-
-    def __init__(self) -> None:
-        self.contents: dict[str, bytes] = {}
-
-    def add(self, name: str, spectrum: Spectrum) -> str:
-        """Return the path, in the recipe's folder, of a spectrum's file."""
-        return self._keep(_stem(name), ".spd", spd_text(spectrum).encode())
-
-    def picture(self, picture: Picture) -> str:
-        """Return the path, in the recipe's folder, of a picture's file."""
-        file = Path(picture.name)
-        return self._keep(_stem(file.stem), file.suffix.lower(), picture.content)
-
-    def _keep(self, stem: str, ending: str, content: bytes) -> str:
-        number = 1
-        while True:
-            file = f"{stem}{f'-{number}' if number > 1 else ''}{ending}"
-            twins = [each for each in self.contents if each.casefold() == file.casefold()]
-            if not twins or (twins == [file] and self.contents[file] == content):
-                self.contents[file] = content
-                return f"{_FOLDER}/{file}"
-            number += 1
+_LONG = 60  # what was typed for a spectrum and is longer does not name its file: tables of numbers
 
 
 class Table:
@@ -71,6 +41,11 @@ class Table:
         self.typed, self._spoken = [dict(row) for row in rows], [dict(row) for row in spoken or rows]
         self.cells = [dict(row) for row in rows]
         self._columns: dict[tuple, str] = {}
+
+    def only(self, row: int) -> Table:
+        """Return a table of one of its conditions; the same where there is none."""
+        rows = slice(row, row + 1)
+        return Table(self.variables, self.names[rows], self.cells[rows], self._spoken[rows])
 
     def conditions(self, base: str) -> Conditions:
         """Return the finished table."""
@@ -102,8 +77,9 @@ class Table:
             self.variables.append(variable)
         for row in range(len(self.names)):
             said, text = [self._cell(row, each, spoken.owner) for each in used], self.filled_in(row, spoken)
+            called = "-".join(said)
             with at_condition(self.names[row]):
-                self.cells[row][variable] = fill(text, "-".join(said))
+                self.cells[row][variable] = fill(text, called if len(called) <= _LONG else self.names[row])
         self._columns[spoken.treatment] = variable
         return variable
 
@@ -137,112 +113,21 @@ class Table:
         return found
 
 
-def mappings_text(
-    statements: Iterable[Statement], table: Table, files: SpectrumFiles, folder: Path | None
-) -> str:
-    """
-    Return the mappings that make some statements; their spectra become files, their variables columns.
-
-    Parameters
-    ----------
-    folder : where spectrum files are that were typed with a relative name
-    """
-    statements = list(statements)
-    users = _treatments_by_variable(statements)
-    lines = []
-    for each in statements:
-        lines.append(f"{each.id}:{each.category}:{each.model}")
-        for parameter, spectrum in each.spectra.items():
-            value = _value(spectrum, each.name, table, files, folder, users)
-            lines.append(f"{each.id}:{parameter}.spectrum = {value}")
-        for parameter, number in each.numbers.items():
-            value = _number(number, f"{each.name} {parameter}", table)
-            lines.append(f"{each.id}:{parameter}.float = {value}")
-        for parameter, word in each.words.items():
-            kind, value = _word(word, f"{each.name} {parameter}", table, files)
-            lines.append(f"{each.id}:{parameter}.{kind} = {value}")
-    body = "".join(f"    {line}\n" for line in lines)
-    return f"Generic {{\n{body}}}\n" if body else ""
-
-
-def _number(number: float | Varied, name: str, table: Table) -> str:
-    if isinstance(number, Varied):
-        cells = [f"{shortest(each):.9g}" for each in number.values]
-        return f"({table.varied(clean(name), cells)})"
-    return f"{shortest(number):.9g}"
-
-
-def _word(word: Named | Picture | Varied, name: str, table: Table, files: SpectrumFiles) -> tuple[str, str]:
-    """Return the type and the value of a word."""
-    if isinstance(word, Picture):
-        return "string", files.picture(word)
-    if isinstance(word, Varied):
-        said = [_word(each, name, table, files) for each in word.values]
-        return said[0][0], f"({table.varied(clean(name), [value for _, value in said])})"
-    return word.type, word.text
-
-
-def _varied(spectra: Varied, name: str, table: Table, files: SpectrumFiles, folder: Path | None) -> str:
-    """Return the variable for the files of spectra of which each condition has its own."""
-    cells = []
-    for row, each in enumerate(spectra.values):
-        heard = each if isinstance(each, Spectrum) else _heard(each, table.filled_in(row, each), folder)
-        cells.append(files.add(name, heard))
-    return f"({table.varied(f'{clean(name)}Spectrum', cells)})"
-
-
-def _value(
-    spectrum: Spoken | Spectrum | Varied,
-    name: str,
-    table: Table,
-    files: SpectrumFiles,
-    folder: Path | None,
-    users: Mapping[str, set[tuple]],
-) -> str:
-    if isinstance(spectrum, Varied):
-        return _varied(spectrum, name, table, files, folder)
-    if isinstance(spectrum, Spectrum):
-        return files.add(name, spectrum)
-
-    def file_of(text: str, file: str) -> str:
-        return files.add(file, _heard(spectrum, text, folder))
-
-    used = _VARIABLE.findall(spectrum.text)
-    if not used:
-        return file_of(spectrum.text, name)
-    if not table.names:
-        raise RecipeError(f"{spectrum.owner} uses ({used[0]}), but there are no conditions")
-    prefix = "" if spectrum.treatment[1:] == _REFLECTANCE else f"{name}-"
-    only = all(users[variable] == {spectrum.treatment} for variable in used)
-    return f"({table.column(spectrum, name, only, lambda text, said: file_of(text, prefix + _stem(said)))})"
-
-
-# What is done to the numbers of a reflectance: nothing.
-_REFLECTANCE = Spoken("", "").treatment[1:]
-
-
-def _heard(spoken: Spoken, text: str, folder: Path | None) -> Spectrum:
-    """Return a spectrum that was typed, in the unit that it is for."""
-    as_typed = Unit.SHAPE if spoken.is_shape else spoken.unit
-    try:
-        return spoken.meant(spectrum_from(text, as_typed, folder, own_folders()))
-    except (RecipeError, ValueError) as error:
-        raise RecipeError(f"{spoken.owner}: {error}") from error
-
-
-def _treatments_by_variable(statements: Iterable[Statement]) -> dict[str, set[tuple]]:
-    found: dict[str, set[tuple]] = {}
-    said = [spectrum for each in statements for spectrum in each.spectra.values()]
-    for spectrum in [one for each in said for one in (each.values if isinstance(each, Varied) else (each,))]:
-        if isinstance(spectrum, Spoken):
-            for variable in _VARIABLE.findall(spectrum.text):
-                found.setdefault(variable, set()).add(spectrum.treatment)
-    return found
-
-
-def _stem(said: str) -> str:
-    """Return what was typed as the name of a file: that of a file without its folder and ending."""
-    name = said.strip()
-    if name.lower().endswith(".spd"):
-        name = re.split(r"[/\\]", name)[-1][:-4]
-    return re.sub(r"[^\w.-]+", "-", name).strip("-.") or "spectrum"
+def table_of(scene, name: str) -> Table:
+    """Return the scene's conditions."""
+    settings = scene.rtb
+    variables = [each.name for each in settings.variables]
+    if twins := [each for each, count in Counter(variables).items() if count > 1 or not each.strip()]:
+        raise RecipeError(f"the variable '{twins[0]}' needs a name that no other one has")
+    names, rows = [], []
+    for number, condition in enumerate(settings.conditions, 1):
+        names.append(condition.name.strip() or f"{name}-{number:03}")
+        cells = [each.value for each in condition.cells]
+        if len(cells) != len(variables):
+            raise RecipeError(
+                f"the condition {names[-1]} has {len(cells)} cells for {len(variables)} variables"
+            )
+        rows.append(dict(zip(variables, cells, strict=True)))
+    kinds = {each.name: each for each in settings.variables}
+    spoken = [{name: spoken_cell(kinds[name], cell) for name, cell in row.items()} for row in rows]
+    return Table(variables, names, rows, spoken)

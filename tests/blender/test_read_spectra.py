@@ -1,5 +1,7 @@
 """From Blender's scene to a recipe: spectra, what is assumed, what is refused."""
 
+from pathlib import Path
+
 import bpy
 import numpy as np
 import pytest
@@ -63,6 +65,20 @@ def test_spd_files_are_found_beside_the_blend(still, read, tmp_path):
     for text in ("spectra/red.spd", "//spectra/red.spd"):
         bpy.data.materials["Paint"].rtb.reflectance = text
         assert b"0.125" in read(bpy.context.scene).resources["Paint.spd"]
+
+
+def test_tables_of_numbers_in_cells_become_files_that_are_called_after_their_conditions(
+    still, read, tmp_path
+):
+    bpy.data.materials["Paint"].rtb.reflectance = "(paint)"
+    bpy.ops.rtb.fill_graded(variable="paint", count=3)
+    bpy.ops.rtb.fill_from_library(variable="paint", names="BabelColor Average/blue")
+    recipe = read(still)
+    folder = recipe.save(tmp_path / "graded")
+    names = [Path(row.cells["paint"]).name for row in recipe.conditions]
+    assert names == ["paint-1.spd", "paint-2.spd", "paint-3.spd", "BabelColor-Average-blue.spd"]
+    first, last = ((folder / "resources" / name).read_text() for name in (names[0], names[3]))
+    assert first == last, "the first step is where it begins"
 
 
 def test_a_column_of_cameras_names_their_ids(still, put, resolved, library):

@@ -66,6 +66,17 @@ def test_the_picture_is_the_cube_of_the_active_condition_in_linear_colours(scene
     assert red > 2 * blue
 
 
+def test_a_colour_among_the_cells_is_the_spectrum_that_the_batch_renders(scene, module, tmp_path):
+    scene.rtb.variables[0].kind = "COLOUR"
+    scene.rtb.conditions[1].cells[0].value = "0.7 0.1 0.2"
+    rendered(scene, tmp_path)
+    bpy.ops.rtb.export_recipe()
+    find = module("rtb_addon.recipe").Recipe.load
+    batch, alone = find(tmp_path / "rtb/cube"), find(tmp_path / "rtb/cube/still")
+    paints = [(each.folder / each.conditions["red"].cells["paint"]).read_text() for each in (batch, alone)]
+    assert paints[0] == paints[1]
+
+
 def test_the_recipes_own_folder_is_left_alone(scene, tmp_path):
     bpy.ops.rtb.export_recipe()
     before = {file: file.read_bytes() for file in (tmp_path / "rtb/cube").glob("*.*")}
