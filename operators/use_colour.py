@@ -3,10 +3,10 @@
 import bpy
 
 from ..rtb_addon.blender.principled import in_words
-from .spectrum_verbs import AskingVerb
+from .spectrum_dialogs import SpectrumDialog
 
 
-class RTB_OT_use_colour(AskingVerb, bpy.types.Operator):
+class RTB_OT_use_colour(SpectrumDialog, bpy.types.Operator):
     """A smooth spectrum that shows a colour under D65"""
 
     bl_idname = "rtb.use_colour"

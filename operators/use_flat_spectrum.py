@@ -2,10 +2,11 @@
 
 import bpy
 
-from .spectrum_verbs import AskingVerb
+from ..rtb_addon.blender.fields import is_number
+from .spectrum_dialogs import SpectrumDialog
 
 
-class RTB_OT_use_flat_spectrum(AskingVerb, bpy.types.Operator):
+class RTB_OT_use_flat_spectrum(SpectrumDialog, bpy.types.Operator):
     """The same value at every wavelength"""
 
     bl_idname = "rtb.use_flat_spectrum"
@@ -13,6 +14,10 @@ class RTB_OT_use_flat_spectrum(AskingVerb, bpy.types.Operator):
 
     value: bpy.props.FloatProperty(name="Value", default=0.5, min=0.0, soft_max=1.0, precision=3)
     asked = "value"
+
+    def begin(self, context, text):
+        if is_number(text):
+            self.value = float(text)
 
     def text(self, context, owner):
         return f"{self.value:.6g}"

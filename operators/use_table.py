@@ -7,9 +7,10 @@ import bpy
 from ..rtb_addon.blender.fields import FIELDS, owner_of, typed_in
 from ..rtb_addon.blender.own_spectra import heard
 from ..rtb_addon.errors import RecipeError
-from .spectrum_verbs import SpectrumVerb
+from .spectrum_dialogs import SpectrumDialog
 
 MOST, ROWS = 40, 16  # samples of a dialog, and of one part of it; finer spectra are files
+NUMBERS = 0.66  # of the width; the rest is the curve's
 
 
 class RTB_PG_sample(bpy.types.PropertyGroup):
@@ -33,7 +34,7 @@ def _fitted(operator, _context) -> None:
         new.wavelength, new.value = wavelength, value
 
 
-class RTB_OT_use_table(SpectrumVerb, bpy.types.Operator):
+class RTB_OT_use_table(SpectrumDialog, bpy.types.Operator):
     """A spectrum as wavelengths and values, straight lines between them"""
 
     bl_idname = "rtb.use_table"
@@ -42,18 +43,15 @@ class RTB_OT_use_table(SpectrumVerb, bpy.types.Operator):
     count: bpy.props.IntProperty(name="Samples", default=0, min=0, max=MOST, update=_fitted)
     samples: bpy.props.CollectionProperty(type=RTB_PG_sample)
 
-    def invoke(self, context, event):
-        try:
-            spectrum = self.now(context)
-        except RecipeError as error:
-            self.report({"ERROR"}, str(error))
-            return {"CANCELLED"}
+    width = 520
+
+    def begin(self, context, text):
+        spectrum = self.now(context)
         self.samples.clear()
         for wavelength, value in zip(spectrum.wavelengths, spectrum.values, strict=True):
             sample = self.samples.add()
             sample.wavelength, sample.value = wavelength, value
         self.count = len(self.samples)
-        return context.window_manager.invoke_props_dialog(self, width=320, confirm_text="Use")
 
     def now(self, context):
         """Return what the field says now, in no more rows than fit."""
@@ -68,17 +66,22 @@ class RTB_OT_use_table(SpectrumVerb, bpy.types.Operator):
         return Spectrum.of(places, spectrum.at(places))
 
     def draw(self, context):
-        layout = self.layout
-        layout.prop(self, "count")
+        self.layout.prop(self, "count")
         # Long tables stand in two parts beside each other, so that they fit on a small screen.
         half = len(self.samples) if len(self.samples) <= ROWS else -(-len(self.samples) // 2)
-        parts = layout.row()
+        sides = self.layout.split(factor=NUMBERS)
+        parts = sides.row()
         for part in filter(None, (self.samples[:half], self.samples[half:])):
             column = parts.column(align=True)
+            heads = column.row(align=True)
+            for head in ("Wavelength (nm)" if half == len(self.samples) else "nm", "Value"):
+                heads.label(text=head)
             for sample in part:
                 row = column.row(align=True)
                 row.prop(sample, "wavelength", text="")
                 row.prop(sample, "value", text="")
+        if self.said is not None:
+            self.draw_becomes(sides.column(), context)
 
     def text(self, context, owner):
         rows = sorted((each.wavelength, each.value) for each in self.samples)

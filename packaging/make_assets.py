@@ -13,6 +13,7 @@ ROOT = Path(__file__).resolve().parents[1]
 sys.path.insert(0, str(ROOT))
 
 import bpy  # noqa: E402
+import numpy as np  # noqa: E402
 
 import rtb_addon.blender  # noqa: E402
 from rtb_addon import swatches  # noqa: E402
@@ -61,6 +62,12 @@ def straight_on(eta: Spectrum, k: Spectrum) -> Spectrum:
     return Spectrum.of(PLACES, ((n - 1) ** 2 + m**2) / ((n + 1) ** 2 + m**2))
 
 
+def between_0_and_1(index: Spectrum) -> Spectrum:
+    """Return how an index falls with wavelength, whatever it is."""
+    n = index.at(PLACES)
+    return Spectrum.of(PLACES, (n - n.min()) / np.ptp(n))
+
+
 def make(catalog: str, name: str, said: dict, shown: Spectrum):
     """Make a material and mark it as an asset."""
     material = bpy.data.materials.new(name)
@@ -72,11 +79,13 @@ def make(catalog: str, name: str, said: dict, shown: Spectrum):
     show(material, [(each / 255) ** 2.2 for each in colour])
     material.asset_mark()
     data = material.asset_data
-    data.catalog_id, data.license, data.author = id_of(catalog), "CC0", "RenderToolbox"
+    data.catalog_id, data.license, data.author = id_of(f"Spectral/{catalog}"), "CC0", "RenderToolbox"
     data.description = f"{MODELS[settings.model][0]}, in spectra measured from 380 to 780 nm"
     preview = material.preview_ensure()
     preview.image_size = PREVIEW, PREVIEW
-    preview.image_pixels_float.foreach_set(curve_icon(shown, PREVIEW, colour).ravel())
+    # A glass is told from others by how it disperses, and not by its colour.
+    drawn = between_0_and_1(library.find(said["ior"])) if "ior" in said else shown
+    preview.image_pixels_float.foreach_set(curve_icon(drawn, PREVIEW, colour).ravel())
     return material
 
 
@@ -104,7 +113,8 @@ def main(folder: Path) -> None:
     rtb_addon.blender.register()
     made = [(each[0], make(*each)) for each in wanted()]
     catalogs = dict.fromkeys(catalog for catalog, _ in made)
-    lines = ["VERSION 1", *(f"{id_of(each)}:Spectral/{each}:Spectral-{each}" for each in catalogs)]
+    paths = ["Spectral", *(f"Spectral/{each}" for each in catalogs)]
+    lines = ["VERSION 1", *(f"{id_of(each)}:{each}:{each.replace('/', '-')}" for each in paths)]
     (folder / CATALOGS).write_text("\n".join(lines) + "\n", encoding="utf-8")
     materials = {material for _, material in made}
     bpy.data.libraries.write(str(folder / FILE), materials, fake_user=True, compress=True)

@@ -13,7 +13,7 @@ FEATURES = {
     "IMAGE": [("light environment picture", "An image all around")],
     "SUNSKY": [("light sunsky", "Sun and sky")],
 }
-PICTURES = "RGB becomes spectra of three smooth basis colours; bands of an EXR stay as they are"
+PICTURES = "RGB becomes smooth spectra; bands of an EXR stay as they are"
 
 
 class RTB_PT_spectral_world(SpectralPanel, bpy.types.Panel):

@@ -3,13 +3,12 @@
 import bpy
 
 from ..operators.import_spectra import RTB_OT_import_spectra
-from ..operators.use_blackbody import RTB_OT_use_blackbody
 from ..operators.use_colour import RTB_OT_use_colour
-from ..operators.use_daylight import RTB_OT_use_daylight
 from ..operators.use_flat_spectrum import RTB_OT_use_flat_spectrum
 from ..operators.use_library_spectrum import RTB_OT_use_library_spectrum
 from ..operators.use_spectrum_file import RTB_OT_use_spectrum_file
 from ..operators.use_table import RTB_OT_use_table
+from ..operators.use_temperature import RTB_OT_use_blackbody, RTB_OT_use_daylight
 from ..operators.use_variable import RTB_OT_use_variable
 from ..operators.vary_in_recipe import RTB_OT_vary_in_recipe
 from ..rtb_addon.blender.fields import FIELDS, field_of

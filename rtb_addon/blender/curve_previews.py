@@ -19,6 +19,8 @@ from .redrawing import redraw_panels
 
 MOST = 128  # pictures that are kept
 ICON = 32  # side of an icon [pixels]
+UNIT = 20  # of Blender's layouts [pixels at scale 1]
+BORDER = 4  # that Blender leaves around a picture [pixels at scale 1]
 
 
 class Shown(NamedTuple):
@@ -51,12 +53,29 @@ def shown(text: str, shines: bool, side: int, under: str = "D65") -> Shown:
     side : of the square picture [pixels]
     under : the illuminant that a surface's colour is shown in; empty for no colour
     """
-    key = (text, shines, side, under, bpy.data.filepath)
+    key = _key(text, shines, side, under)
     if key not in _shown and key not in _wanted:
         _wanted[key] = None
         if not bpy.app.background and not bpy.app.timers.is_registered(_make_and_redraw):
             bpy.app.timers.register(_make_and_redraw)
     return _shown.get(key, Shown())
+
+
+def show_now(text: str, shines: bool, side: int, under: str = "D65") -> None:
+    """Make what shown() is to return at once, for dialogs: Blender draws them only where they change."""
+    if (key := _key(text, shines, side, under)) not in _shown:
+        if len(_shown) >= MOST:
+            forget()
+        _shown[key] = _made(key)
+
+
+def side_of(units: int, context) -> int:
+    """Return the side of a picture [pixels] that is shown as so many units of Blender's layouts."""
+    return round((units * UNIT - BORDER) * (context.preferences.system.ui_scale or 1.0))  # 0 without a window
+
+
+def _key(text: str, shines: bool, side: int, under: str) -> tuple:
+    return text, shines, side, under, bpy.data.filepath
 
 
 def icons(names: Sequence[str], shines: bool) -> list[int]:

@@ -101,7 +101,7 @@ def _rows(light, scene):
     text = typed_in(light.rtb, "spectrum", scene.rtb)
     shape = heard(text, Unit.SHAPE)
     kelvin, index = temperature(shape), rendering_index(shape)
-    yield "Temperature", "none" if kelvin is None else f"{kelvin[0]:.0f} K"
+    yield "CCT", "none" if kelvin is None else f"{kelvin[0]:.0f} K"
     yield "Duv", "none" if kelvin is None else f"{kelvin[1]:+.4f}"
     yield "CRI (Ra)", "none" if index is None else f"{index:.0f}"
     factor = lamp.factor

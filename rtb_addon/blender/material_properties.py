@@ -48,7 +48,7 @@ class RTB_PG_texture(bpy.types.PropertyGroup):
 
     kind: EnumProperty(name="Texture", items=TEXTURES, default="NONE")
     image: PointerProperty(type=bpy.types.Image, name="Image")
-    wrap: EnumProperty(name="Beyond Its Border", items=WRAPS, default="repeat")
+    wrap: EnumProperty(name="Extension", description="Beyond its border", items=WRAPS, default="repeat")
     checks: FloatVectorProperty(name="Checks", description="Along U and V", size=2, default=(2, 2), min=0)
     offset: FloatVectorProperty(name="Offset", description="Along U and V", size=2)
     scale: FloatVectorProperty(name="Scale", description="Along U and V", size=2, default=(1, 1))

@@ -143,7 +143,7 @@ def test_a_lamp_without_a_temperature_has_no_rendering_index_either(scene, lamp,
     words.told(light, scene)
     words.tell_wanted()
     assert dict(words.told(light, scene).rows[:3]) == dict.fromkeys(
-        ("Temperature", "Duv", "CRI (Ra)"), "none"
+        ("CCT", "Duv", "CRI (Ra)"), "none"
     )
 
 
@@ -155,7 +155,7 @@ def test_the_panel_tells_what_the_light_comes_to(scene, lamp, library):
     assert words.told(light, scene) == words.Told(), "nothing is worked out while drawing"
     assert words.tell_wanted() == 1
     *colour, radiometric, photometric = words.told(light, scene).rows
-    assert colour == [("Temperature", "6503 K"), ("Duv", "+0.0032"), ("CRI (Ra)", "100")]
+    assert colour == [("CCT", "6503 K"), ("Duv", "+0.0032"), ("CRI (Ra)", "100")]
     assert radiometric == ("Intensity", f"{100 / (4 * math.pi):.4g} W/sr")
     d65 = find("D65")
     assert photometric == ("", f"{100 / (4 * math.pi) * lumens(d65) / d65.integral():.4g} cd")

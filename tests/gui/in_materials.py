@@ -60,6 +60,7 @@ def materials(driver: Driver, folder: Path):
     driver.photograph("material-renderers")
     yield from search(driver)
     yield from table(driver)
+    yield from flat(driver)
     driver.report["a draw"] = sorted(drawn)[len(drawn) // 2]
 
 
@@ -88,6 +89,25 @@ def table(driver: Driver):
     driver.photograph("spectrum-table")
     yield from driver.press("ESC", "PROPERTIES")
     yield 0.3
+
+
+def flat(driver: Driver):
+    """Open the dialog of a flat spectrum, type a number where the pointer is, and use it."""
+    settings, region = bpy.data.materials["Material"].rtb, driver.region("PROPERTIES", "WINDOW")
+    settings.model, settings.reflectance = "matte", "0.25"
+    yield from driver.move(region.x + 90, region.y + region.height // 2)
+    with bpy.context.temp_override(window=driver.window, area=driver.area("PROPERTIES"), region=region):
+        bpy.ops.rtb.use_flat_spectrum("INVOKE_DEFAULT", field="REFLECTANCE")
+    yield 0.8
+    yield from driver.click(driver.x, driver.y)
+    yield 0.3
+    yield from driver.type("1")
+    yield from driver.key("RET")
+    yield 0.5
+    driver.photograph("spectrum-flat")
+    yield from driver.key("RET")
+    yield 0.5
+    driver.report["flat"] = settings.reflectance
 
 
 def search(driver: Driver):

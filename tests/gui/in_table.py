@@ -69,8 +69,8 @@ def vary_by_click(driver: Driver):
         driver.window.event_simulate(type="RET", value=value, x=panel.x + 90, y=panel.y + 200)
         yield 0.3
     driver.report["searched"] = material.rtb.reflectance
-    # The field below the slots, the name and the model.
-    yield from driver.choose_last_entry(panel.x + panel.width - 60, panel.y + panel.height - 241, "vary-menu")
+    yield from driver.find("rtb.reflectance", "PROPERTIES", "WINDOW", down=262)
+    yield from driver.choose_last_entry(*driver.place, "vary-menu")
     yield 0.8
     driver.photograph("varied")
     settings = bpy.context.scene.rtb

@@ -12,6 +12,7 @@ PANELS = (
     "material-renderers",
     "library-search",
     "spectrum-table",
+    "spectrum-flat",
     "light-watts",
     "light-lux",
     "world-constant",
@@ -40,13 +41,17 @@ def test_the_default_material_is_taken_over_as_matte(report):
     assert report["promoted"] == "matte"
 
 
+def test_a_number_typed_in_a_dialog_is_used(report):
+    assert report["flat"] == "1"
+
+
 def test_a_panel_of_many_spectra_draws_at_once(report):
     assert report["a draw"] < 0.005
 
 
 def test_the_lamps_panel_tells_what_its_light_comes_to(report):
     told = dict(report["told"])
-    assert told["Temperature"] == "4225 K"
+    assert told["CCT"] == "4225 K"
     assert told["CRI (Ra)"] == "64"
     assert told["Intensity"].endswith("W/sr")
     assert told[""] == "500 cd"
