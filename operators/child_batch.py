@@ -9,6 +9,7 @@ from contextlib import suppress
 from pathlib import Path
 
 from ..rtb_addon.background import Event, EventStream, start_child, stop
+from ..rtb_addon.spreadsheets import format_rows
 from .preferences import arguments
 
 GRACE = 0.5  # [s] that a child has to stop when asked, before it is ended
@@ -42,7 +43,8 @@ class ChildBatch:
         self.cancelled = self.ended = False
         self.under_way: dict[str, float] = {}  # how much of each condition is done, 0 to 1
         self._deadline: float | None = None
-        chosen = ["--conditions", ",".join(conditions)] if conditions else []
+        # In one word, for a name may begin with a minus; quoted, for it may have commas.
+        chosen = ["--conditions=" + format_rows([conditions], ",").strip()] if conditions else []
         self._child = start_child(["render", str(folder), "--json", *chosen, *arguments()])
         self._events = EventStream(self._child)
         with suppress(

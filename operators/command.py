@@ -1,20 +1,28 @@
-"""``blender --command rtb VERB ...``: our command line in Blender's own Python."""
+"""``blender --command rtb VERB ...``: our command line, in a process of its own as all that renders."""
 
 from __future__ import annotations
 
 import bpy
+
+PROGRAM = "blender --command rtb"
 
 _commands: list = []
 
 
 def run(arguments: list[str]) -> int:
     """Do what the arguments say and return the exit status."""
-    from ..rtb_addon.__main__ import main  # brings much that enabling need not wait for
+    # These bring much that enabling need not wait for.
+    import signal
+
+    from ..rtb_addon.__main__ import command_parser
+    from ..rtb_addon.background import run_child
 
     try:
-        return main(arguments)
+        command_parser(PROGRAM).parse_args(arguments)
     except SystemExit as ended:  # of --help, or of words that nobody knows
         return int(ended.code or 0)
+    signal.signal(signal.SIGINT, signal.default_int_handler)  # Blender keeps Ctrl-C for its own renderings
+    return run_child(arguments)
 
 
 def register() -> None:

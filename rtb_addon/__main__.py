@@ -16,7 +16,7 @@ WRONG, CANCELLED = 2, 130
 
 def main(arguments: Sequence[str] | None = None) -> int:
     """Do what the arguments say and return the exit status: 0 done, 1 partly, 2 wrong, 130 cancelled."""
-    said = _parser().parse_args(arguments)
+    said = command_parser().parse_args(arguments)
     if said.verb == "render" and _has_work(said):
         start_early([], "rtb_addon.worker", said.threads)
     try:
@@ -47,9 +47,10 @@ def _end(sentence: str, status: int) -> int:
     return status
 
 
-def _parser() -> argparse.ArgumentParser:
+def command_parser(program: str = "python -m rtb_addon") -> argparse.ArgumentParser:
+    """Return what understands the command line, and what its help calls the program."""
     parser = argparse.ArgumentParser(
-        prog="python -m rtb_addon", description="Families of physically based, multispectral renderings."
+        prog=program, description="Families of physically based, multispectral renderings."
     )
     verb = parser.add_subparsers(required=True, metavar="VERB", title="verbs")
     _add_render(verb.add_parser("render", help="render every condition of a recipe that is not done yet"))
@@ -67,7 +68,7 @@ def _parser() -> argparse.ArgumentParser:
 
 def _add_render(render: argparse.ArgumentParser) -> None:
     _add_folder(render)
-    render.add_argument("--conditions", type=_names, metavar="A,B", help="names of those to render, else all")
+    _add_conditions(render, "render")
     render.add_argument("--samples", type=_positive, metavar="N", help="paths per pixel")
     render.add_argument("--size", type=_size, metavar="WxH", help="size of the images in pixels")
     render.add_argument("--jobs", type=_positive, metavar="N", help="workers at once, else one a core")
@@ -123,9 +124,7 @@ def _add_compare(compare: argparse.ArgumentParser) -> None:
     compare.add_argument(
         "--renderers", type=_two_names, required=True, metavar="A,B", help="A minus B is what is shown"
     )
-    compare.add_argument(
-        "--conditions", type=_names, metavar="A,B", help="names of those to compare, else all"
-    )
+    _add_conditions(compare, "compare")
     compare.add_argument("--json", action="store_true", help="print a line of JSON for each condition")
     compare.set_defaults(verb="compare")
 
@@ -148,6 +147,11 @@ def _add_folder(parser: argparse.ArgumentParser) -> None:
     parser.add_argument("--renderer", metavar="NAME", help="instead of the recipe's own")
 
 
+def _add_conditions(parser: argparse.ArgumentParser, verb: str) -> None:
+    what = f"names of those to {verb}, else all; one with a comma in it stands in quotes: '\"a, b\",c'"
+    parser.add_argument("--conditions", type=_names, metavar="A,B", help=what)
+
+
 def _add_trust(parser: argparse.ArgumentParser) -> None:
     parser.add_argument(
         "--trust", action="store_true", help="run the recipe's own remodeler.py, which is code"
@@ -155,7 +159,9 @@ def _add_trust(parser: argparse.ArgumentParser) -> None:
 
 
 def _names(text: str) -> list[str]:
-    return [name for name in text.split(",") if name]
+    import csv  # not before there are any: help and errors do not wait for it
+
+    return [name for row in csv.reader([text]) for name in row if name]
 
 
 def _two_names(text: str) -> list[str]:

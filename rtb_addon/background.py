@@ -82,7 +82,7 @@ class Event:
 
 
 def start_child(
-    arguments: list[str], module: str = "rtb_addon", threads: int | None = None
+    arguments: list[str], module: str = "rtb_addon", threads: int | None = None, heard: bool = True
 ) -> subprocess.Popen:
     """
     Start ``python -m rtb_addon ARGUMENTS`` with the Python that runs here.
@@ -100,15 +100,17 @@ def start_child(
     Parameters
     ----------
     threads : what numerical libraries may use; None leaves it to them
+    heard : whether we read what it says; else that goes where what we say goes
     """
+    output = subprocess.PIPE if heard else None
     early = _early.pop((module, *arguments, threads), None)
     if early is not None and early.poll() is None:
         return early
     return subprocess.Popen(
         [sys.executable, "-P", "-m", module, *arguments],
         stdin=subprocess.PIPE,
-        stdout=subprocess.PIPE,
-        stderr=subprocess.PIPE,
+        stdout=output,
+        stderr=output,
         encoding="utf-8",
         errors="replace",
         env=_environment(threads),
@@ -116,6 +118,17 @@ def start_child(
         start_new_session=True,
         creationflags=getattr(subprocess, "CREATE_NO_WINDOW", 0),
     )
+
+
+def run_child(arguments: list[str], module: str = "rtb_addon") -> int:
+    """Run ``python -m rtb_addon ARGUMENTS`` to its end in our place, and return its exit status."""
+    with start_child(arguments, module, heard=False) as child:
+        while True:
+            try:
+                status = child.wait()
+                return status if status >= 0 else 128 - status  # a signal, as shells say it
+            except KeyboardInterrupt:  # ours alone, for it is in a group of its own
+                _interrupt(child)
 
 
 def start_early(arguments: list[str], module: str, threads: int | None = None) -> None:
@@ -247,6 +260,14 @@ def close_input(process: subprocess.Popen) -> None:
     assert process.stdin is not None
     with suppress(OSError):
         process.stdin.close()
+
+
+def _interrupt(process: subprocess.Popen) -> None:
+    """Let a child stop as by Ctrl-C; where there is no way to say that, by closing its input."""
+    if os.name == "posix":
+        process.send_signal(signal.SIGINT)
+    else:
+        stop(process)
 
 
 def _kill(process: subprocess.Popen) -> None:

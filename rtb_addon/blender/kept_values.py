@@ -7,7 +7,6 @@ from functools import cache
 from typing import Any
 
 import bpy
-import numpy as np
 
 # A way from a datablock to a value: names of properties, indices, ("key", name) for a custom property,
 # ("each", name) for one property of all items of a long list.
@@ -40,7 +39,7 @@ _DERIVED = {
     "Node": {"internal_links", "dimensions"},
     "NodeSocket": {"links"},
 }
-TYPES = {"FLOAT": np.float32, "INT": np.int32, "BOOLEAN": np.bool_, "ENUM": np.int32}
+TYPES = {"FLOAT": "float32", "INT": "int32", "BOOLEAN": "bool", "ENUM": "int32"}
 
 
 def values_of(datablock, numbers: Mapping[int, int]) -> dict[Where, Any]:
@@ -121,6 +120,8 @@ class _Reader:
                     self.read(each, (*where, index))
 
     def _column(self, items, prop, where: Where) -> None:
+        import numpy as np  # takes longer to come than enabling may last
+
         values = np.empty(len(items) * max(getattr(prop, "array_length", 0), 1), TYPES[prop.type])
         items.foreach_get(prop.identifier, values)
         self.found[where] = values.tobytes()

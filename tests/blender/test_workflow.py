@@ -85,6 +85,13 @@ def test_one_condition_is_rendered_alone(scene, tmp_path):
     assert "gone" in sentence_of(bpy.ops.rtb.render_condition, condition="gone")
 
 
+@pytest.mark.parametrize("name", ["dark, wet", "-5", "a;b", "it's"])
+def test_whatever_a_condition_is_called_it_is_rendered_alone(scene, tmp_path, name):
+    scene.rtb.conditions[1].name = name
+    assert bpy.ops.rtb.render_condition(condition=name) == {"FINISHED"}
+    assert cubes(tmp_path) == [name]
+
+
 def test_a_packed_recipe_renders_elsewhere(scene, module, tmp_path):
     assert bpy.ops.rtb.pack_recipe(filepath=str(tmp_path / "cube.zip")) == {"FINISHED"}
     names = zipfile.ZipFile(tmp_path / "cube.zip").namelist()
@@ -124,13 +131,14 @@ def test_a_button_a_script_and_the_command_line_render_the_same_cubes_bit_for_bi
             np.testing.assert_array_equal(clicked, other)
 
 
-def test_blenders_own_command_line_runs_ours(extension, module, capsys, tmp_path, scene):
+def test_blenders_own_command_line_runs_ours(extension, module, capfd, tmp_path, scene):
     run = module("operators.command").run
     assert run(["renderers"]) == 0
-    assert "tracer" in capsys.readouterr().out
+    assert "tracer" in capfd.readouterr().out
     assert run(["check", str(tmp_path)]) == 2
-    assert "no recipe folder" in capsys.readouterr().err
+    assert "no recipe folder" in capfd.readouterr().err
     assert run(["paint"]) == 2
+    assert capfd.readouterr().err.startswith("usage: blender --command rtb")
 
 
 def test_every_buttons_tooltip_says_how_a_script_does_the_same(scene, module):

@@ -134,6 +134,37 @@ def test_a_child_whose_parent_was_killed_stops_by_itself(tmp_path):
     wait_for(lambda: not runs(child), seconds=2)
 
 
+def test_a_child_in_our_place_says_and_ends_as_if_it_were_us():
+    code = "import sys; from rtb_addon.background import run_child; sys.exit(run_child(sys.argv[1:]))"
+    for words, status, said in (
+        (["renderers"], 0, "tracer"),
+        (["check", "nowhere"], 2, "nowhere is no recipe"),
+    ):
+        done = subprocess.run(
+            [sys.executable, "-c", code, *words], capture_output=True, text=True, check=False, timeout=30
+        )
+        assert done.returncode == status
+        assert said in (done.stderr if status else done.stdout)
+
+
+def test_a_child_in_our_place_gets_our_ctrl_c(tmp_path):
+    (tmp_path / "waiting.py").write_text(
+        "import time\ntry:\n    print('waiting', flush=True)\n    time.sleep(60)\n"
+        "except KeyboardInterrupt:\n    print('interrupted')\n    raise SystemExit(130)\n"
+    )
+    code = "import sys; from rtb_addon.background import run_child; sys.exit(run_child([], 'waiting'))"
+    parent = subprocess.Popen(
+        [sys.executable, "-c", code],
+        stdout=subprocess.PIPE,
+        text=True,
+        env={**os.environ, "PYTHONPATH": f"{Path(__file__).parents[2]}{os.pathsep}{tmp_path}"},
+    )
+    assert parent.stdout.readline() == "waiting\n"
+    parent.send_signal(signal.SIGINT)
+    assert parent.communicate(timeout=10)[0] == "interrupted\n"
+    assert parent.returncode == 130
+
+
 def test_a_child_imports_nothing_from_the_folder_it_is_started_in(tmp_path, monkeypatch):
     (tmp_path / "tqdm.py").write_text("raise SystemExit('a stranger ran code')")
     monkeypatch.chdir(tmp_path)

@@ -55,6 +55,15 @@ def test_render_shows_progress_and_says_where_things_are(write_family, run):
     assert run("render", recipe.folder)[1].startswith("0 rendered, 2 found done, 0 failed")
 
 
+def test_a_condition_whose_name_has_a_comma_in_it_is_named_in_quotes(write_family, run):
+    recipe = write_family({"dark, wet": "0.2", "dark": "0.3", "wet": "0.4", "-5": "0.8"})
+    said = run("render", recipe.folder, "--jobs", 1, "--conditions", '"dark, wet",wet')[1]
+    assert said.startswith("2 rendered")
+    assert "1 rendered" in run("render", recipe.folder, "--jobs", 1, "--conditions=-5")[1]
+    done = {file.stem for file in recipe.folder.glob("renderings/plain/*.exr")}
+    assert done == {"dark, wet", "wet", "-5"}
+
+
 def test_render_tells_events_as_lines_of_json(write_family, run):
     recipe = write_family({"a": "0.2", "b": "0.8"})
     status, output, error = run("render", recipe.folder, "--json", "--jobs", 1, "--conditions", "b")
