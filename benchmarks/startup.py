@@ -1,5 +1,5 @@
 """
-How much later Blender starts with the extension: starts with it and without in turn, in a folder of their own.
+How much later Blender starts with the extension: starts with and without it, in a folder of their own.
 
     python benchmarks/startup.py [pairs] [--window]
 
