@@ -6,6 +6,8 @@ import bpy
 import numpy as np
 import pytest
 
+from tests.blender.recipe_sentences import sentence
+
 
 @pytest.fixture
 def read(library):
@@ -331,16 +333,6 @@ def test_what_is_selected_and_active_stays_so(still, read, library):
 
 
 # What is refused
-
-
-def sentence(library, act) -> str:
-    """Return the one sentence that something is refused with."""
-    with pytest.raises(library("errors").RecipeError) as caught:
-        act()
-    text = str(caught.value)
-    assert not text.endswith(".")
-    assert "\n" not in text
-    return text
 
 
 def only_in(name, edit):

@@ -7,7 +7,6 @@ import pytest
 from PIL import Image
 
 from rtb_addon.errors import RecipeError, RenderingError
-from rtb_addon.exr import write_exr
 from rtb_addon.renderers.mitsuba import llvm, renderer, session
 from rtb_addon.renderers.pictures import read_picture, sky_gamma
 from rtb_addon.scene.render_scene import Camera, Light
@@ -22,6 +21,7 @@ from tests.renderings.mitsuba_scenes import (
     scene,
 )
 from tests.renderings.noise import CHANCE, in_blocks, least_probability
+from tests.renderings.spectral_pictures import write_spectra
 
 RANDOM = np.random.default_rng(11)
 PAINTED = REFLECTANCE.in_bands(BANDS) * INTENSITY.in_bands(BANDS)
@@ -32,15 +32,6 @@ TURN = np.linalg.qr(np.random.default_rng(2).normal(size=(3, 3)))[0]
 TURN = TURN * np.sign(np.linalg.det(TURN))
 
 
-def channel(nm):
-    return f"S0.{nm:.6f}nm".replace(".", ",").replace(",", ".", 1)
-
-
-def write_spectra(path, texels, bands=BANDS):
-    write_exr(path, {}, {channel(nm): texels[..., k] for k, nm in enumerate(bands.centres)})
-    return path
-
-
 @pytest.fixture
 def coloured(tmp_path):
     Image.fromarray(COLOURS).save(tmp_path / "colours.png")
@@ -49,7 +40,7 @@ def coloured(tmp_path):
 
 @pytest.fixture
 def spectral(tmp_path):
-    return write_spectra(tmp_path / "spectra.exr", SPECTRA)
+    return write_spectra(tmp_path / "spectra.exr", SPECTRA, BANDS)
 
 
 def sky(path, intensity=INTENSITY, turn=None):
@@ -125,7 +116,7 @@ def test_a_multispectral_sky_is_exact_in_every_band(tmp_path, spectral):
 @pytest.mark.parametrize("grey", [0, 1])
 def test_in_a_sky_of_one_colour_paint_shows_its_reflectance(tmp_path, grey):
     if grey:
-        path = write_spectra(tmp_path / "even.exr", np.full((3, 4, len(BANDS)), 0.7, np.float32))
+        path = write_spectra(tmp_path / "even.exr", np.full((3, 4, len(BANDS)), 0.7), BANDS)
         radiance = 0.7
     else:
         path = tmp_path / "even.png"
@@ -147,7 +138,7 @@ def one_bright(path, at=(2, 9), size=(16, 32)):
     """Write a dim sky of one spectrum with one texel that is 10 000 times as bright in another."""
     texels = np.full((*size, len(BANDS)), 0.01, np.float32) * np.linspace(1, 2, len(BANDS), dtype=np.float32)
     texels[at] = 100 * np.linspace(3, 1, len(BANDS), dtype=np.float32)
-    return write_spectra(path, texels)
+    return write_spectra(path, texels, BANDS)
 
 
 @pytest.mark.parametrize("turn", [None, TURN.T], ids=["upright", "turned"])
@@ -201,7 +192,7 @@ def test_stock_mitsubas_spectral_film_shows_the_same_with_our_plugin(tmp_path, s
 
 def test_another_sky_of_about_that_size_recompiles_nothing(tmp_path, spectral):
     picture(scene(environment=sky(spectral)), tmp_path)
-    other = write_spectra(tmp_path / "other.exr", RANDOM.random((8, 8, 16)).astype(np.float32))
+    other = write_spectra(tmp_path / "other.exr", RANDOM.random((8, 8, 16)), BANDS)
     changed = scene(environment=sky(other, REFLECTANCE, TURN))
     ran, compiled = kernels(changed, tmp_path, "other")
     assert (ran > 0, compiled) == (True, 0)

@@ -8,7 +8,6 @@ import pytest
 from PIL import Image
 
 from rtb_addon.errors import RecipeError, RenderingError
-from rtb_addon.exr import write_exr
 from rtb_addon.renderers.interface import RenderOptions
 from rtb_addon.renderers.mitsuba import llvm, renderer, session
 from rtb_addon.renderers.pictures import read_picture
@@ -25,6 +24,7 @@ from tests.renderings.mitsuba_scenes import (
     scene,
     square,
 )
+from tests.renderings.spectral_pictures import write_spectra
 
 PLAIN = square(1)
 SHEET = Mesh(PLAIN.vertices, PLAIN.triangles, None, np.array([[0, 0], [1, 0], [1, 1], [0, 1]], np.float32))
@@ -47,12 +47,7 @@ def coloured(tmp_path):
 
 @pytest.fixture
 def spectral(tmp_path):
-    planes = {
-        f"T.{nm:.6f}nm".replace(".", ",").replace(",", ".", 1): SPECTRA[..., k]
-        for k, nm in enumerate(BANDS.centres)
-    }
-    write_exr(tmp_path / "spectra.exr", {}, planes)
-    return tmp_path / "spectra.exr"
+    return write_spectra(tmp_path / "spectra.exr", SPECTRA, BANDS, "T")
 
 
 def sheet(texture, size=(4, 3), window=(-1.0, 1.0, -1.0, 1.0), model="matte", **changes):
@@ -167,9 +162,8 @@ def test_several_surfaces_show_pictures_of_both_kinds_side_by_side(tmp_path, col
 
 def test_another_picture_of_the_same_kind_recompiles_nothing(tmp_path, spectral):
     picture(sheet(bitmap(spectral)), tmp_path)
-    planes = {f"T.{nm},000000nm": RANDOM.random((7, 9)).astype(np.float32) for nm in range(400, 701, 50)}
-    write_exr(tmp_path / "other.exr", {}, planes)
-    other = bitmap(tmp_path / "other.exr", wrapMode="mirror", filterMode="ewa", scaleV=3.0)
+    file = write_spectra(tmp_path / "other.exr", RANDOM.random((7, 9, 7)), Bands.regular(400, 50, 7), "T")
+    other = bitmap(file, wrapMode="mirror", filterMode="ewa", scaleV=3.0)
     assert kernels(sheet(other), tmp_path, "other")[1] == 0
 
 

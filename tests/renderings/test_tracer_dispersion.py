@@ -16,7 +16,7 @@ from tests.renderings.scattering import (
     met,
     model_of,
 )
-from tests.renderings.test_tracer_sky import spectral
+from tests.renderings.spectral_pictures import write_spectra
 from tests.renderings.tracer_scenes import (
     BANDS,
     GREY,
@@ -75,7 +75,7 @@ def test_a_prism_turns_each_band_as_snell_says(tmp_path, kind):
     azimuth = (0.5 - (np.arange(columns) + 0.5) / columns) * 2 * np.pi
     ahead = np.abs(azimuth) < np.pi / 2
     texels[:, ahead] = (np.pi - azimuth[ahead])[None, :, None]
-    spectral(tmp_path / "sky.exr", texels)
+    write_spectra(tmp_path / "sky.exr", texels, BANDS)
     parameters = {"intensity": Spectrum.constant(1.0, Unit.RADIANCE), "filename": str(tmp_path / "sky.exr")}
     around = Light("sky", "environment", np.eye(4), parameters)
     camera = Camera("c", "orthographic", facing((-3, height, 0), (0, height, 0)), (-1e-4, 1e-4, -1e-4, 1e-4))

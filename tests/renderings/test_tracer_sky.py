@@ -14,9 +14,9 @@ from rtb_addon.renderers.interface import RenderOptions
 from rtb_addon.renderers.tracer.lights.sky import Skies
 from rtb_addon.scene.render_scene import Camera, Film, Light, Material, Shape
 from rtb_addon.spectra import Spectrum, Unit
-from rtb_addon.spectra.channels import channel_name
 from rtb_addon.spectra.promotion import promoted
 from tests.renderings.scattering import direction, evaluate, model_of
+from tests.renderings.spectral_pictures import write_spectra
 from tests.renderings.tracer_scenes import (
     BANDS,
     GREY,
@@ -39,16 +39,9 @@ INTENSITY = Spectrum.of([400, 700], [1.0, 2.5], Unit.RADIANCE)
 TURNED = facing((0.3, -0.5, 0.8), (0, 0, 0)) @ np.diag([1, 1, 1, 1.0])
 
 
-def spectral(path, texels):
-    """Write a picture with a channel at the centre of each of BANDS, and return the file."""
-    names = [channel_name(centre) for centre in BANDS.centres]
-    write_exr(path, {}, {name: np.float32(texels[..., k]) for k, name in enumerate(names)})
-    return path
-
-
 def painted(path, texels=None, turned=TURNED, intensity=INTENSITY):
     """Return an environment with this picture."""
-    file = path if texels is None else spectral(path, texels)
+    file = path if texels is None else write_spectra(path, texels, BANDS)
     turned = turned.copy()
     turned[:3, 3] = 0
     return Light("sky", "environment", turned, {"intensity": intensity, "filename": str(file)})

@@ -9,13 +9,13 @@ import pytest
 from PIL import Image
 
 from rtb_addon.errors import RecipeError
-from rtb_addon.exr import write_exr
 from rtb_addon.renderers import find
 from rtb_addon.renderers.interface import RenderOptions
 from rtb_addon.scene.render_scene import Material, Shape, Texture, TextureUse
 from rtb_addon.scene.vocabulary import TEXTURES
 from rtb_addon.spectra import Spectrum
 from rtb_addon.spectra.promotion import promoted
+from tests.renderings.spectral_pictures import write_spectra
 from tests.renderings.tracer_scenes import (
     BANDS,
     GREY,
@@ -118,9 +118,7 @@ def test_between_texels_their_mean_is_seen(tmp_path, file):
 def test_a_spectral_picture_is_exact_in_every_band(tmp_path):
     """Random reflectances, a channel at each band's centre: each pixel shows its texel's numbers."""
     texels = np.random.default_rng(1).random((4, 4, len(BANDS))).astype(np.float32)
-    names = [f"T.{centre:.6f}".replace(".", ",").replace("T,", "T.") + "nm" for centre in BANDS.centres]
-    path = tmp_path / "spectral.exr"
-    write_exr(path, {}, {name: texels[..., band].copy() for band, name in enumerate(names)})
+    path = write_spectra(tmp_path / "spectral.exr", texels, BANDS, "T")
     shown = seen(texture("bitmap", filename=str(path), filterMode="nearest"), tmp_path, size=(4, 4))
     np.testing.assert_allclose(shown, texels, rtol=1e-6)
 
