@@ -1,6 +1,6 @@
 """What the user can do in the Image Editor, and what that knows of the window."""
 
-from . import pins, view_settings, viewing
+from . import pins, undone_pictures, view_settings, viewing
 from .copy_pins import RTB_OT_copy_pins
 from .export_pins import RTB_OT_export_pins
 from .hover_probe import RTB_OT_hover_probe
@@ -15,10 +15,12 @@ def register() -> None:
     view_settings.register()
     viewing.register()
     pins.register()
+    undone_pictures.register()
 
 
 def unregister() -> None:
     """Forget what was looked at, and take that back."""
+    undone_pictures.unregister()
     pins.unregister()
     viewing.unregister()
     view_settings.unregister()

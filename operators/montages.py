@@ -27,12 +27,16 @@ def find(name: str) -> bpy.types.Image | None:
     return next((image for image in bpy.data.images if image.get(MARK) and image.name == name), None)
 
 
+def editors_of(image: bpy.types.Image) -> list[bpy.types.Area]:
+    """Return the Image Editors that show an image."""
+    areas = (area for window in bpy.context.window_manager.windows for area in window.screen.areas)
+    return [area for area in areas if area.type == "IMAGE_EDITOR" and area.spaces.active.image == image]
+
+
 def redraw(image: bpy.types.Image) -> None:
     """Let the Image Editors that show an image be drawn anew."""
-    for window in bpy.context.window_manager.windows:
-        for area in window.screen.areas:
-            if area.type == "IMAGE_EDITOR" and area.spaces.active.image == image:
-                area.tag_redraw()
+    for area in editors_of(image):
+        area.tag_redraw()
 
 
 def editor(context) -> bpy.types.Area | None:

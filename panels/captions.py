@@ -23,8 +23,9 @@ def draw(context) -> None:
     for name, (left, bottom, right, _) in tiles.items():
         said = amiss.get(name) or viewing.seen["absent"].get(name, "")
         strokes.fill(left, bottom, right, bottom + HIGH * unit, GROUND)
-        text = strokes.shortened(f"{name} ({said})" if said else name, right - left - 8 * unit)
-        strokes.words(text, left + 4 * unit, bottom + 5 * unit, FAINT if said else INK)
+        begin = max(left, 0) + 4 * unit  # of the tile's part that is seen
+        text = strokes.shortened(f"{name} ({said})" if said else name, right - begin - 4 * unit)
+        strokes.words(text, begin, bottom + 5 * unit, FAINT if said else INK)
 
 
 def _seen_tiles(region, narrowest: float, lowest: float) -> Iterator[tuple[str, Box]]:

@@ -19,6 +19,7 @@ from . import table_properties
 from .conditions import set_conditions
 from .light_properties import RTB_PG_light, RTB_PG_object, RTB_PG_world
 from .material_properties import RTB_PG_material, RTB_PG_texture
+from .redrawing import redraw_panels
 from .table_properties import RTB_PG_condition, RTB_PG_kept, RTB_PG_mapping, RTB_PG_variable
 
 RENDERERS = (
@@ -95,6 +96,11 @@ def rendered_size(scene) -> tuple[int, int]:
     return max(render.resolution_x * part // 100, 1), max(render.resolution_y * part // 100, 1)
 
 
+def montage_arranged(settings, context) -> None:
+    """Let panels be drawn anew; without an update of its own Blender tells nobody of a change by a script."""
+    redraw_panels()
+
+
 def _resize(render, width: int, height: int) -> None:
     render.resolution_percentage = 100
     render.resolution_x, render.resolution_y = width, height
@@ -140,9 +146,13 @@ class RTB_PG_scene(bpy.types.PropertyGroup):
     )
     bands_count: IntProperty(name="Bands", default=31, min=1, soft_max=100)
     montage_columns: IntProperty(
-        name="Montage Columns", description="0: as square as may be", default=0, min=0
+        name="Montage Columns",
+        description="0: as square as may be",
+        default=0,
+        min=0,
+        update=montage_arranged,
     )
-    montage_fill: EnumProperty(name="Montage Order", items=FILLS, default="columns")
+    montage_fill: EnumProperty(name="Montage Order", items=FILLS, default="columns", update=montage_arranged)
     variables: CollectionProperty(type=RTB_PG_variable)
     conditions: CollectionProperty(type=RTB_PG_condition)
     mappings: CollectionProperty(type=RTB_PG_mapping)

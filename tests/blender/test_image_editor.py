@@ -7,6 +7,7 @@ import numpy as np
 import pytest
 
 from rtb_addon.colorimetry import xyz
+from rtb_addon.layers import Layers
 from rtb_addon.observers import lms
 from rtb_addon.spectral_image import SpectralImage
 from tests.blender.stand_in_layout import RecordingLayout
@@ -129,6 +130,70 @@ def test_pins_go_to_a_file(folder, window_manager, tmp_path):
     assert lines[0] == "condition,blue,"
     assert lines[1] == "renderer,tracer,"
     assert len(lines) == 10 + 1 + 31
+
+
+def test_standard_errors_are_asked_for_rendered_and_shown(folder, window_manager, module):
+    viewing, view, settings = module("operators.viewing"), window_manager.rtb_view, bpy.context.scene.rtb
+    viewing.show(folder)
+    view.kind = "error"
+    assert "Layers" in viewing.sentence
+    settings.layers = {"standard_error"}
+    bpy.ops.rtb.render_condition(condition="green")
+    view.condition = "green"
+    assert viewing.sentence == ""
+    errors = Layers.load(folder / "layers/tracer/green.exr").planes["standard_error"]
+    assert viewing.seen["full"] == pytest.approx(np.sqrt((errors**2).mean(axis=2)).max(), rel=1e-5)
+    settings.layers = set()
+
+
+def test_undo_leaves_the_picture_in_its_image_editor(folder, window_manager, module):
+    scene, viewing = bpy.context.scene, module("operators.viewing")
+    bpy.data.images.remove(bpy.data.images["cube"])  # what undo goes back to knows no picture
+    bpy.ops.ed.undo_push(message="before")
+    scene.frame_current = 7
+    bpy.ops.ed.undo_push(message="frame")
+    area = window_manager.windows[0].screen.areas[0]
+    kind, area.type = area.type, "IMAGE_EDITOR"
+    viewing.show(folder)
+    area.spaces.active.image = bpy.data.images["cube"]
+    bpy.ops.ed.undo()
+    assert bpy.context.scene.frame_current != 7
+    assert area.spaces.active.image == bpy.data.images["cube"]
+    assert shown().shape == (16, 48, 3)
+    area.type = kind
+
+
+def test_a_recipe_of_another_scene_is_not_taken_for_this_ones(folder, window_manager, module):
+    viewing = module("operators.viewing")
+    viewing.show(folder)
+    assert viewing.shows(bpy.context.scene)
+    bpy.context.scene.rtb.name = "another"
+    assert not viewing.shows(bpy.context.scene)
+    layout = drawn(module, "rendering", "RTB_PT_rendering")
+    assert layout.names("operator") == ["rtb.show_montage"]
+    assert layout.names("prop") == []
+    bpy.context.scene.rtb.name = ""
+
+
+def test_the_montage_is_arranged_as_the_scene_says(folder, window_manager, module):
+    viewing, settings = module("operators.viewing"), bpy.context.scene.rtb
+    settings.montage_columns = 1
+    viewing.show(folder)
+    assert shown().shape == (32, 24, 3)
+    settings.montage_columns = 0
+
+
+def test_a_pin_is_drawn_only_where_the_picture_shows_what_it_measured(folder, window_manager, module):
+    viewing, pins = module("operators.viewing"), module("operators.pins")
+    viewing.show(folder)
+    bpy.ops.rtb.probe(condition="blue", region=(9, 6, 4, 3))
+    pin = window_manager.rtb_pins[0]
+    assert pins.is_seen(pin)
+    window_manager.rtb_view.condition = "green"
+    assert not pins.is_seen(pin)
+    window_manager.rtb_view.condition = ""
+    pin.folder = "elsewhere"
+    assert not pins.is_seen(pin)
 
 
 def drawn(module, name: str, kind: str) -> RecordingLayout:

@@ -11,6 +11,7 @@ from PIL import Image
 from rtb_addon.background import EventStream, close_input, send, start_child
 from rtb_addon.colorimetry import xyz
 from rtb_addon.errors import RecipeError
+from rtb_addon.layers import Layers
 from rtb_addon.montage import make_montage
 from rtb_addon.recipe import Recipe
 from rtb_addon.recipe.options import MontageOptions
@@ -19,7 +20,7 @@ from rtb_addon.spectral_image import SpectralImage
 from rtb_addon.thumbnails import thumbnail
 from rtb_addon.tiles import Tiles
 from rtb_addon.viewer import Viewer
-from rtb_addon.views import View, false_colours, reduced
+from rtb_addon.views import View, colours_of, false_colours, reduced
 
 BANDS = Bands.regular(400, 50, 7)
 NAMES = ("red", "green", "blue", "grey", "white")
@@ -107,6 +108,67 @@ def test_a_difference_is_the_root_of_the_mean_square_over_the_bands(recipe):
     answer, picture = look(recipe, view={"kind": "difference"}, other="grey", condition="grey")
     assert not picture.any()
     assert answer["full"] == 1
+
+
+def with_errors(recipe: Recipe, name: str, level: float) -> None:
+    """Write standard errors beside a condition's cube: a level in each band."""
+    plane = np.full((4, 6, len(BANDS)), level, np.float32)
+    Layers({"standard_error": plane}, BANDS).save(recipe.layers_file(recipe.conditions[name]))
+
+
+def test_standard_errors_are_seen_where_there_are_some_and_missed_by_name(recipe):
+    with_errors(recipe, "red", 0.5)
+    with_errors(recipe, "white", 0.25)
+    answer, picture = look(recipe, view={"kind": "error"})
+    assert answer["there"] == ["red", "white"]
+    missed = "no standard errors"
+    assert answer["absent"] == {"green": missed, "blue": "not rendered", "grey": missed}
+    assert answer["full"] == pytest.approx(0.5)
+    tiles = Tiles.from_words(answer["tiles"])
+    for number, share in ((0, 1.0), (4, 0.5), (1, 0.0)):
+        left, top = tiles.corner(number)
+        assert picture[top, left].tolist() == false_colours()[round(255 * share)].tolist()
+
+
+def test_standard_errors_that_are_rendered_anew_are_looked_at_anew(recipe):
+    viewer = Viewer()
+    request = {"verb": "look", "folder": str(recipe.folder), "condition": "red"}
+    request |= {"output": str(recipe.folder / "view.tif"), "view": {"kind": "error"}}
+    assert "Layers" in viewer.answer(request)["sentence"]
+    for level in (0.5, 0.125):
+        with_errors(recipe, "red", level)
+        assert viewer.answer(request)["full"] == pytest.approx(level)
+
+
+def test_what_was_rendered_in_another_size_before_waits_for_its_turn(recipe):
+    newest = recipe.rendering_file(recipe.conditions["grey"])
+    cube(3, height=8, width=12).save(newest)
+    answer, picture = look(recipe)
+    assert answer["there"] == ["grey"]
+    assert answer["absent"] == dict.fromkeys(("red", "green", "white"), "of another size") | {
+        "blue": "not rendered"
+    }
+    tiles = Tiles.from_words(answer["tiles"])
+    left, top = tiles.corner(NAMES.index("grey"))
+    assert picture[top : top + 8, left : left + 12].any(axis=2).all()
+    assert picture.any(axis=2).sum() == 8 * 12
+
+
+def test_a_grid_that_is_asked_for_goes_before_the_recipes(recipe):
+    answer, picture = look(recipe, grid={"columns": 2, "fill": "rows"})
+    tiles = Tiles.from_words(answer["tiles"])
+    assert (tiles.rows, tiles.columns, tiles.fill) == (3, 2, "rows")
+    assert picture.shape == (3 * 4, 2 * 6, 3)
+
+
+def test_the_colours_of_a_scale_are_those_of_the_picture(recipe):
+    ramp = SpectralImage(np.tile(np.linspace(0, 1, 256, dtype=np.float32)[None, :, None], (1, 1, 7)), BANDS)
+    for kind in ("wavelength", "luminance"):
+        view = View(kind)
+        pixels, _ = view.drawn([view.of(ramp)], MontageOptions())
+        assert (
+            np.abs(pixels[0].astype(int) - colours_of(kind)).max() <= 3
+        )  # a step of 256 in single precision
 
 
 @pytest.mark.parametrize(
