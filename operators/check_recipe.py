@@ -6,14 +6,13 @@ import json
 
 import bpy
 
-from ..rtb_addon.blender import read_recipe
-from ..rtb_addon.errors import RecipeError
 from . import checking, findings
 from .child_verb import ChildVerb, Ended
+from .reading import ReadingVerb
 from .tell import tell
 
 
-class RTB_OT_check_recipe(bpy.types.Operator):
+class RTB_OT_check_recipe(ReadingVerb, bpy.types.Operator):
     """Say everything that is wrong with the recipe, without rendering; each finding can be selected"""
 
     bl_idname = "rtb.check_recipe"
@@ -26,25 +25,28 @@ class RTB_OT_check_recipe(bpy.types.Operator):
             cls.poll_message_set("The recipe is being checked")
         return checking.child is None
 
-    def execute(self, context):
-        from ..rtb_addon.blender.scene_problems import scene_problems
+    def refused(self, context, error):
+        problems = scene_problems(context)
+        findings.clear()
+        told = any(each in str(error) or str(error) in each for each in problems)
+        findings.note([*problems, *([] if told else [str(error)])])
+        self.report({"WARNING"}, _counted(len(findings.errors)))
+        return {"FINISHED"}
 
-        problems, recipe = scene_problems(context.scene), None
-        try:
-            recipe = read_recipe(context.scene)
-            folder = findings.exported(recipe)
-        except RecipeError as error:
-            findings.clear()
-            told = any(each in str(error) or str(error) in each for each in problems)
-            findings.note([*problems, *([] if told else [str(error)])])
-            self.report({"WARNING"}, _counted(len(findings.errors)))
-            return {"FINISHED"}
-        findings.note(problems)
+    def go_on(self, context, folder):
+        findings.note(scene_problems(context))
         checking.child = ChildVerb(["check", str(folder), "--json"], _take)
         if bpy.app.background:
             checking.child = None
             self.report({"INFO"}, _counted(len(findings.errors)))
         return {"FINISHED"}
+
+
+def scene_problems(context) -> list[str]:
+    """Return what is wrong with the scene before anything is written."""
+    from ..rtb_addon.blender import scene_problems  # brings numpy, which enabling need not wait for
+
+    return scene_problems.scene_problems(context.scene)
 
 
 def _take(ended: Ended) -> None:

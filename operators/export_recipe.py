@@ -2,12 +2,10 @@
 
 import bpy
 
-from ..rtb_addon.blender import read_recipe
-from ..rtb_addon.errors import RecipeError
-from . import findings
+from .reading import ReadingVerb
 
 
-class RTB_OT_export_recipe(bpy.types.Operator):
+class RTB_OT_export_recipe(ReadingVerb, bpy.types.Operator):
     """Write the recipe to its folder, ready to render anywhere"""
 
     bl_idname = "rtb.export_recipe"
@@ -21,10 +19,6 @@ class RTB_OT_export_recipe(bpy.types.Operator):
         options={"SKIP_SAVE"},
     )
 
-    def execute(self, context):
-        try:
-            folder = findings.exported(read_recipe(context.scene), self.folder)
-        except RecipeError as error:
-            return findings.refuse(self, error)
+    def go_on(self, context, folder):
         self.report({"INFO"}, f"Recipe written to {folder}")
         return {"FINISHED"}

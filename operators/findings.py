@@ -44,12 +44,22 @@ def note(problems: Iterable[str] = (), others: Iterable[str] = ()) -> None:
 
 def exported(recipe, folder: str = "") -> Path:
     """Save a scene's recipe and return its folder; what had to be assumed becomes remarks."""
+    clear()
+    return written(recipe, recipe.save(named(folder)))
+
+
+def named(folder: str) -> Path | None:
+    """Return the folder that an operator names, None where it names none."""
+    return Path(bpy.path.abspath(folder)) if folder else None
+
+
+def written(recipe, folder: Path) -> Path:
+    """Take in what is to be said of a recipe that was saved in a folder, and return that."""
     global generated
     clear()
-    saved = recipe.save(Path(bpy.path.abspath(folder)) if folder else None)
     mappings[:], generated = recipe.mappings.splitlines(), recipe.generated
     note(others=recipe.report)
-    return saved
+    return folder
 
 
 def refuse(operator, error: Exception) -> set[str]:

@@ -2,12 +2,11 @@
 
 import bpy
 
-from ..rtb_addon.blender import read_recipe
-from ..rtb_addon.errors import RecipeError
 from . import findings, row_states, running
+from .reading import ReadingVerb
 
 
-class RenderVerb:
+class RenderVerb(ReadingVerb):
     """An operator that renders some conditions, all of them where none is chosen."""
 
     @classmethod
@@ -16,11 +15,7 @@ class RenderVerb:
             cls.poll_message_set("A recipe is being rendered: wait for it, or cancel it")
         return running.batch is None
 
-    def execute(self, context):
-        try:
-            folder = findings.exported(read_recipe(context.scene))
-        except RecipeError as error:
-            return findings.refuse(self, error)
+    def go_on(self, context, folder):
         chosen = self.chosen(context)
         row_states.begin(context.scene, chosen)
         batch = running.start(folder, chosen)

@@ -9,7 +9,7 @@ from __future__ import annotations
 
 import bpy
 
-from ..rtb_addon.blender import preview
+from ..rtb_addon.blender import own_changes
 from ..rtb_addon.blender.table_properties import RTB_PG_mapping
 
 # Blender evaluates these again after a mere look, too.
@@ -28,9 +28,7 @@ def note() -> None:
 @bpy.app.handlers.persistent
 def _evaluated(scene, depsgraph) -> None:
     """Count what Blender has evaluated anew, if it is more than a look."""
-    if preview.has_just_shown():
-        return
-    if any(_is_edit(each) for each in depsgraph.updates):
+    if any(_is_edit(each) for each in depsgraph.updates) and not own_changes.have_come():
         note()
 
 

@@ -34,7 +34,6 @@ def draw_in_export(menu, context):
     """File > Export."""
     menu.layout.operator_context = "INVOKE_DEFAULT"
     menu.layout.operator(RTB_OT_pack_recipe.bl_idname, text="RenderToolbox Recipe (.zip)")
-    menu.layout.operator_context = "EXEC_DEFAULT"
     menu.layout.operator(RTB_OT_export_recipe.bl_idname, text="RenderToolbox Recipe (folder)")
 
 

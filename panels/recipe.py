@@ -2,7 +2,7 @@
 
 import bpy
 
-from ..operators import findings, running
+from ..operators import findings, reading, running
 from ..operators.check_recipe import RTB_OT_check_recipe
 from ..operators.compare_renderers import RTB_OT_compare_renderers
 from ..operators.open_folder import RTB_OT_open_folder
@@ -49,6 +49,8 @@ def draw_run(layout) -> None:
     if running.batch is not None:
         draw_progress(layout, running.batch)
         draw_under_way(layout, running.batch)
+    elif reading.now is not None:
+        layout.progress(factor=reading.now.share, type="BAR", text="Reading the Scene…")
     else:
         row = layout.row()
         row.scale_y = 1.5

@@ -6,6 +6,7 @@ from collections.abc import Iterator, Mapping
 from contextlib import contextmanager
 
 from ..errors import RecipeError
+from . import own_changes
 from .table_edits import cells_of
 from .varied import (
     Place,
@@ -53,6 +54,7 @@ def set_for(settings, cells: Mapping[str, str]) -> Iterator[None]:
     finally:
         for place, value in reversed(before):
             give_back(place, value)
+        own_changes.note()
 
 
 def _set(place: Place, value) -> None:

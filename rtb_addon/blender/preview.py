@@ -15,6 +15,7 @@ from contextlib import contextmanager
 import bpy
 
 from ..errors import RecipeError
+from . import own_changes
 from .mapped import cells_by_name, value_for
 from .nodes import base_colour
 from .own_spectra import heard
@@ -22,7 +23,7 @@ from .table_edits import SPECTRA
 from .varied import Place, changed_along, found_at, give_back, kept_value, set_value, value_at
 
 _CAMERA = "camera"
-_state: dict = {"suspended": 0, "problems": [], "shown": False}
+_state: dict = {"suspended": 0, "problems": []}
 
 
 def is_on() -> bool:
@@ -40,7 +41,8 @@ def refresh() -> None:
     with _paused():  # what is set here asks for no refreshing
         take_back()
         _state["problems"] = show(bpy.context.scene) if is_on() else []
-        _state["shown"] |= len(bpy.context.scene.rtb.kept) > 0
+        if len(bpy.context.scene.rtb.kept):
+            own_changes.note()
 
 
 def begin_rendering(scene, of_ours: bool) -> None:
@@ -53,12 +55,6 @@ def begin_rendering(scene, of_ours: bool) -> None:
 def problems() -> list[str]:
     """Return a sentence for each thing that the preview cannot show."""
     return _state["problems"]
-
-
-def has_just_shown() -> bool:
-    """Return whether something was shown or taken back since somebody asked this: no edit of the user's."""
-    shown, _state["shown"] = _state["shown"], False
-    return shown
 
 
 def show(scene) -> list[str]:
@@ -97,7 +93,7 @@ def take_back(scenes=None) -> None:
                 _give_back(kept)
         if len(settings.kept):
             settings.kept.clear()
-            _state["shown"] = True
+            own_changes.note()
 
 
 @contextmanager

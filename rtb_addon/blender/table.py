@@ -9,7 +9,6 @@ from collections.abc import Callable, Mapping, Sequence
 from ..conditions import Condition, Conditions, format_conditions, parse_conditions
 from ..errors import RecipeError
 from ..scene.collada.ids import clean
-from .baked import at_condition
 from .conditions import IMAGE_NAME
 from .statements import Spoken
 from .table_properties import spoken_cell
@@ -78,8 +77,10 @@ class Table:
         for row in range(len(self.names)):
             said, text = [self._cell(row, each, spoken.owner) for each in used], self.filled_in(row, spoken)
             called = "-".join(said)
-            with at_condition(self.names[row]):
+            try:
                 self.cells[row][variable] = fill(text, called if len(called) <= _LONG else self.names[row])
+            except RecipeError as error:
+                raise RecipeError(f"the condition {self.names[row]}: {error}") from error
         self._columns[spoken.treatment] = variable
         return variable
 

@@ -1,5 +1,7 @@
 """Properties that conditions set: what is written, what is previewed, and that all is as before after it."""
 
+from concurrent.futures import ThreadPoolExecutor
+
 import bpy
 import numpy as np
 import pytest
@@ -254,3 +256,40 @@ def test_a_property_varies_only_once(still):
     bpy.ops.rtb.vary_property(home="objects", thing="Box", path="location", index=1)
     names = [each.name for each in still.rtb.mappings]
     assert names == ["Location X of the object Box", "Location Y of the object Box"]
+
+
+def test_a_scene_is_read_in_steps_and_is_as_before_at_each(still, library):
+    bpy.ops.rtb.vary_property(home="objects", thing="Lamp", path="location", index=2, variable="height")
+    bpy.ops.rtb.fill_range(variable="height", how="ADD", first=1, last=4, count=4)
+    reading, lamp = library("blender.reading"), bpy.data.objects["Lamp"]
+    before, shares, heights = lamp.location[2], [], set()
+    steps = reading.read_in_steps(still)
+    try:
+        while True:
+            shares.append(next(steps))
+            heights.add(lamp.location[2])
+    except StopIteration as end:
+        finish = end.value
+    assert shares == sorted(shares)
+    assert (len(shares), shares[-1]) == (len(still.rtb.conditions), 1.0)
+    assert heights == {before}
+    with ThreadPoolExecutor(1) as thread:
+        stepwise = thread.submit(finish).result()
+    at_once = library("blender").read_recipe(still)
+    assert (stepwise.parent, stepwise.mappings) == (at_once.parent, at_once.mappings)
+    assert stepwise.resources == at_once.resources
+
+
+def test_reading_that_is_left_in_the_middle_leaves_the_scene_and_its_preview(still, library):
+    bpy.ops.rtb.vary_property(home="objects", thing="Lamp", path="location", index=2, variable="height")
+    bpy.ops.rtb.fill_range(variable="height", how="ADD", first=1, last=4, count=4)
+    bpy.ops.rtb.preview_condition(show=True)
+    lamp = bpy.data.objects["Lamp"]
+    assert lamp.location[2] == 4
+    steps = library("blender.reading").read_in_steps(still)
+    next(steps)
+    assert lamp.location[2] == 3, "nothing is previewed meanwhile"
+    steps.close()
+    assert lamp.location[2] == 4
+    bpy.ops.rtb.preview_condition(show=False)
+    assert lamp.location[2] == 3
