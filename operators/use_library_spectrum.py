@@ -68,7 +68,7 @@ class RTB_OT_use_library_spectrum(SpectrumVerb, bpy.types.Operator):
 
     def invoke(self, context, event):
         context.window_manager.invoke_search_popup(self)
-        return {"FINISHED"}
+        return {"INTERFACE"}  # nothing has been done yet that could be undone
 
     def text(self, context, owner):
         return self.name

@@ -5,6 +5,7 @@ from __future__ import annotations
 import bpy
 
 from ..rtb_addon.blender.fields import owner_of
+from ..rtb_addon.blender.material_words import metal_title
 from ..rtb_addon.blender.redrawing import redraw_panels
 from ..rtb_addon.errors import RecipeError
 
@@ -16,8 +17,7 @@ def _metals(operator, context):
         from ..rtb_addon.spectra.library import metals  # brings numpy, which enabling need not wait for
 
         for number, name in enumerate(metals()):
-            symbol, word = name.removeprefix("Metals/").split(" ", 1)
-            _items.append((name, f"{word.title()} ({symbol})", "", number))
+            _items.append((name, metal_title(name), "", number))
     return _items
 
 
@@ -33,7 +33,7 @@ class RTB_OT_use_metal(bpy.types.Operator):
 
     def invoke(self, context, event):
         context.window_manager.invoke_search_popup(self)
-        return {"FINISHED"}
+        return {"INTERFACE"}  # nothing has been done yet that could be undone
 
     def execute(self, context):
         try:

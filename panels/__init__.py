@@ -4,11 +4,10 @@ import bpy
 from bpy.utils import register_classes_factory
 
 from ..rtb_addon.blender import asset_library, curve_previews, light_words
-from . import image_editor, menus, progress, spectrum_menus
+from . import image_editor, material_presets, menus, progress, spectrum_menus
 from .condition_menus import RTB_MT_conditions, RTB_MT_designs, RTB_MT_variable
 from .conditions import RTB_PT_conditions, RTB_UL_conditions
 from .mappings import RTB_PT_mappings
-from .material_presets import RTB_PT_material_presets
 from .recipe import RTB_PT_recipe
 from .render_settings import RTB_PT_render_settings
 from .spectral_emission import RTB_PT_spectral_emission
@@ -27,7 +26,7 @@ _register, _unregister = register_classes_factory(
         RTB_MT_conditions,
         RTB_PT_conditions,
         RTB_PT_mappings,
-        RTB_PT_material_presets,
+        material_presets.RTB_PT_material_presets,
         RTB_PT_spectral_material,
         RTB_PT_spectral_light,
         RTB_PT_spectral_world,
@@ -43,6 +42,7 @@ def register() -> None:
     bpy.types.WindowManager.rtb_first_variable = bpy.props.IntProperty(options={"HIDDEN"}, min=0)
     curve_previews.register()
     asset_library.register()
+    material_presets.register()
     menus.register()
     spectrum_menus.register()
     progress.register()
@@ -55,6 +55,7 @@ def unregister() -> None:
     progress.unregister()
     spectrum_menus.unregister()
     menus.unregister()
+    material_presets.unregister()
     asset_library.unregister()
     curve_previews.unregister()
     light_words.unregister()

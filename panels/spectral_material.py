@@ -5,7 +5,7 @@ from __future__ import annotations
 import bpy
 
 from ..operators.use_metal import RTB_OT_use_metal
-from ..rtb_addon.blender.material_words import is_typed, takes_texture, texture_of, words_of
+from ..rtb_addon.blender.material_words import is_typed, metal_of, takes_texture, texture_of, words_of
 from ..rtb_addon.scene.vocabulary import MATERIALS
 from .material_presets import RTB_PT_material_presets
 from .renderer_words import draw_renderers, features
@@ -27,7 +27,9 @@ class RTB_PT_spectral_material(SpectralPanel, bpy.types.Panel):
     def draw_spectra(self, layout, context, settings):
         layout.prop(settings, "model")
         if settings.model == "metal":
-            layout.operator(RTB_OT_use_metal.bl_idname, text="Choose Metal…", icon="VIEWZOOM")
+            layout.operator(
+                RTB_OT_use_metal.bl_idname, text=metal_of(settings) or "Choose Metal…", icon="VIEWZOOM"
+            )
         for number, (name, parameter) in enumerate(MATERIALS[settings.model].items()):
             own = words_of(name).name
             if takes_texture(name, parameter.kind) and getattr(settings, texture_of(own)).kind != "NONE":

@@ -95,6 +95,7 @@ CHOICES = {
     "ggx": "GGX",
 }
 _INDICES = ("eta", "k")
+METALS = "Metals/"  # of the library
 
 
 def words_of(parameter: str) -> Words:
@@ -133,3 +134,16 @@ def is_typed(kind: str) -> bool:
 def texture_of(name: str) -> str:
     """Return the property that holds the texture of a property."""
     return f"{name}_texture"
+
+
+def metal_of(settings) -> str | None:
+    """Return which metal's indices a material has, ``Copper (Cu)``; None where they are no one metal's."""
+    metal = settings.eta.removesuffix(" eta")
+    one = settings.eta == f"{metal} eta" and settings.k == f"{metal} k" and metal.startswith(METALS)
+    return metal_title(metal) if one else None
+
+
+def metal_title(metal: str) -> str:
+    """Return how the interface calls a metal of the library."""
+    symbol, _, word = metal.removeprefix(METALS).partition(" ")
+    return f"{word.title()} ({symbol})"

@@ -25,6 +25,7 @@ _INDICES = "indices.csv"
 _OLD_METAL = re.compile(r"(\w+)\.(eta|k)\.spd")
 _OLD_PATCH = re.compile(r"mccbabel-(\d+)\.spd")
 _ROWS, _COLUMNS = 4, 6
+_OFFERED = 3  # names at most, where there is none as asked for
 
 CHART = "BabelColor Average"
 OWN = "Own/"
@@ -75,7 +76,8 @@ def find(name: str, folders: Iterable[Path] = ()) -> Spectrum:
     known = {each.lower(): each for each in (*_all(), *own)}
     if key in known:
         return read_spd(own[known[key]]) if known[key] in own else _all()[known[key]]
-    near = [known[each] for each in get_close_matches(key, known, n=3, cutoff=0.5)]
+    near = [known[each] for each in known if key and key in each][:_OFFERED]
+    near = near or [known[each] for each in get_close_matches(key, known, n=_OFFERED, cutoff=0.5)]
     remedy = f"did you mean {', '.join(near)}" if near else "its names are those of colour-science, like D65"
     raise RecipeError(f"no spectrum of the library is called '{name.strip()}', {remedy}")
 

@@ -91,6 +91,47 @@ def test_presets_bring_a_material_back(scene, box, extension):
     assert importlib.util.find_spec("bl_ui") is not None
 
 
+SHIPPED = sorted((ROOT / "panels/presets/rtb_material").glob("*.py"))
+
+
+@pytest.mark.parametrize("preset", SHIPPED, ids=lambda file: file.stem)
+def test_a_shipped_preset_makes_a_material_that_can_be_read(preset, scene, box, lamp, library, extension):
+    box()
+    lamp("POINT")
+    material = bpy.data.materials["Paint"]
+    folders = [Path(each) for each in bpy.utils.preset_paths("rtb_material")]
+    assert any(folder.samefile(preset.parent) for folder in folders)
+    with bpy.context.temp_override(material=material):
+        bpy.ops.script.execute_preset(filepath=str(preset), menu_idname="RTB_PT_material_presets")
+    assert material.rtb.use_spectra
+    paint = library("blender.materials").read_material(material)
+    assert paint.model == material.rtb.model
+    recipe = library("blender").read_recipe(bpy.context.scene)
+    assert f"Paint-material:material:{paint.model}" in recipe.mappings
+
+
+def test_shipped_presets_are_gone_when_the_extension_is(extension):
+    presets = sys.modules[f"{extension}.panels.material_presets"]
+    presets.unregister()
+    try:
+        assert presets.HERE not in {
+            str(Path(each).parents[1]) for each in bpy.utils.preset_paths("rtb_material")
+        }
+    finally:
+        presets.register()
+
+
+def test_the_button_for_metals_tells_the_one_there_is(scene, library):
+    words = library("blender.material_words")
+    settings = bpy.data.materials.new("Sheet").rtb
+    settings.eta, settings.k = "Metals/Au gold eta", "Metals/Au gold k"
+    assert words.metal_of(settings) == "Gold (Au)"
+    settings.k = "Metals/Cu copper k"
+    assert words.metal_of(settings) is None
+    settings.eta = settings.k = "1.5"
+    assert words.metal_of(settings) is None
+
+
 # What Blender's own shader comes to
 
 

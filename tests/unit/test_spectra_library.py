@@ -189,6 +189,7 @@ def test_a_file_beside_the_recipe_comes_before_the_librarys(tmp_path):
     [
         ("", "an empty text is no spectrum"),
         ("D64", "no spectrum of the library is called 'D64', did you mean D6"),
+        ("gold", "did you mean Metals/Au gold eta, Metals/Au gold k"),
         ("gone.spd", r"there is no spectrum file gone\.spd in "),
         ("daylight 3000", "'daylight 3000': daylight of 3000 K is not defined"),
         ("daylight noon", "'noon' is no temperature"),
