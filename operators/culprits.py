@@ -54,7 +54,7 @@ def culprit_of(sentence: str, scene, mappings: Sequence[str] = (), generated: in
 
 
 def _mapping(sentence: str, scene) -> Culprit | None:
-    from ..rtb_addon.blender.varied import subject_of
+    from ..rtb_addon.blender.places import subject_of
 
     for number, mapping in enumerate(scene.rtb.mappings):
         if sentence.startswith(f"{subject_of(mapping)}: "):

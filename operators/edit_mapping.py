@@ -5,7 +5,8 @@ from __future__ import annotations
 import bpy
 
 from ..rtb_addon.blender import mapping_edits
-from ..rtb_addon.blender.varied import found_at, refuse_fixed, subject
+from ..rtb_addon.blender.place_words import subject
+from ..rtb_addon.blender.places import found_at, refuse_fixed
 from .mapping_verbs import MappingVerb
 
 _HOMES = [

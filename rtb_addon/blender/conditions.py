@@ -2,9 +2,11 @@
 
 from __future__ import annotations
 
+import re
 from collections.abc import Iterable, Sequence
 
 IMAGE_NAME = "imageName"
+VARIABLE = re.compile(r"\(([^()]+)\)")  # stands for a cell of the condition
 
 
 def set_conditions(scene, variables: Sequence[str], rows: Iterable[Sequence[object]]) -> None:

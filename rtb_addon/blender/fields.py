@@ -2,16 +2,14 @@
 
 from __future__ import annotations
 
-import re
 from collections.abc import Iterator
 from typing import NamedTuple
 
 from ..errors import RecipeError
+from .conditions import VARIABLE
 from .folders import typed
 from .material_words import is_typed, parameters, takes_texture, texture_of, words_of
 from .table_properties import spoken_cell
-
-_VARIABLE = re.compile(r"\(([^()]+)\)")
 
 
 class Field(NamedTuple):
@@ -107,7 +105,7 @@ def group_of(thing, field: Field):
 
 def typed_in(group, name: str, settings) -> str:
     """Return what a field says in the active condition, with variables filled in and paths whole."""
-    text = _VARIABLE.sub(lambda found: _cell(settings, found[1], found[0]), getattr(group, name))
+    text = VARIABLE.sub(lambda found: _cell(settings, found[1], found[0]), getattr(group, name))
     return typed(text, group.id_data)
 
 
@@ -122,7 +120,7 @@ def is_number(text: str) -> bool:
 
 def varies(text: str) -> bool:
     """Whether a text names variables of the conditions."""
-    return _VARIABLE.search(text) is not None
+    return VARIABLE.search(text) is not None
 
 
 def active(context, kind: str):

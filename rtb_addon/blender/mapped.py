@@ -7,18 +7,18 @@ from contextlib import contextmanager
 
 from ..errors import RecipeError
 from . import own_changes
-from .table_edits import cells_of
-from .varied import (
+from .place_values import meant
+from .places import (
     Place,
     changed_along,
     give_back,
     kept_value,
-    meant,
     place_of,
     refuse_fixed,
     set_value,
     subject_of,
 )
+from .table_edits import cells_of
 
 
 def cells_by_name(settings, row) -> dict[str, str]:

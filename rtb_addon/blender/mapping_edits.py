@@ -5,8 +5,10 @@ from __future__ import annotations
 import bpy
 
 from ..errors import RecipeError, choices
+from .place_values import shown
+from .place_words import subject
+from .places import Place, found_at, refuse_fixed, value_at
 from .table_edits import add_row, add_variable, free_name
-from .varied import Place, found_at, refuse_fixed, shown, subject, value_at
 
 # Datablocks whose properties conditions may set; what shows them in an interface is none of them.
 HOMES = (

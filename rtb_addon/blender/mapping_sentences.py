@@ -9,9 +9,11 @@ from typing import Any, NamedTuple
 import bpy
 
 from ..errors import RecipeError
+from .conditions import VARIABLE
 from .mapped import cells_by_name, value_for
+from .place_words import thing_word
+from .places import place_of
 from .table_edits import spoken_fields
-from .varied import VARIABLE, place_of, thing_word
 from .written_mappings import Written, written_lines
 
 _ICONS = {"Object": "OBJECT_DATA", "Light": "LIGHT", "Camera": "CAMERA_DATA", "Material": "MATERIAL"}

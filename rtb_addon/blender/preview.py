@@ -19,8 +19,8 @@ from . import own_changes
 from .mapped import cells_by_name, value_for
 from .nodes import base_colour
 from .own_spectra import heard
+from .places import Place, changed_along, found_at, give_back, kept_value, set_value, value_at
 from .table_edits import SPECTRA
-from .varied import Place, changed_along, found_at, give_back, kept_value, set_value, value_at
 
 _CAMERA = "camera"
 _state: dict = {"suspended": 0, "problems": []}

@@ -14,9 +14,9 @@ from .conditions import IMAGE_NAME
 from .evaluation import as_rendered
 from .mapped import set_for, values_for
 from .parent import Parent, ParentWriter
+from .places import set_value, subject_of
 from .seen import Seen, seen_in
 from .table import Table
-from .varied import set_value, subject_of
 
 
 @dataclass(frozen=True)

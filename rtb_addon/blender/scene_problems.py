@@ -8,10 +8,11 @@ from collections.abc import Iterator
 import bpy
 
 from ..errors import RecipeError
+from .conditions import VARIABLE
 from .folders import blend_folder, recipe_name, typed
 from .mapped import cells_by_name, value_for
+from .place_words import thing_word
 from .table_edits import spoken_fields
-from .varied import VARIABLE, thing_word
 from .written_mappings import written_mappings
 
 

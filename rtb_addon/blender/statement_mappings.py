@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import re
 from collections.abc import Callable, Iterable, Mapping
 from dataclasses import dataclass
 
@@ -10,11 +9,11 @@ from ..errors import RecipeError
 from ..scene.collada.ids import clean
 from ..scene.collada.write_numbers import shortest
 from ..spectra import Spectrum, Unit
+from .conditions import VARIABLE
 from .spectrum_files import SpectrumFiles, stem_of
 from .statements import Named, Picture, Spoken, Statement, Varied
 from .table import Table
 
-_VARIABLE = re.compile(r"\(([^()]+)\)")
 # What is done to the numbers of a reflectance: nothing.
 _REFLECTANCE = Spoken("", "").treatment[1:]
 
@@ -81,7 +80,7 @@ class _Writer:
             return self._varied(spectrum, name)
         if isinstance(spectrum, Spectrum):
             return self.files.add(name, spectrum)
-        used = _VARIABLE.findall(spectrum.text)
+        used = VARIABLE.findall(spectrum.text)
         if not used:
             return self.files.add(name, self._heard(spectrum, spectrum.text))
         if not self.table.names:
@@ -116,6 +115,6 @@ def _treatments_by_variable(statements: Iterable[Statement]) -> dict[str, set[tu
     said = [spectrum for each in statements for spectrum in each.spectra.values()]
     for spectrum in [one for each in said for one in (each.values if isinstance(each, Varied) else (each,))]:
         if isinstance(spectrum, Spoken):
-            for variable in _VARIABLE.findall(spectrum.text):
+            for variable in VARIABLE.findall(spectrum.text):
                 found.setdefault(variable, set()).add(spectrum.treatment)
     return found

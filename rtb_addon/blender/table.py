@@ -2,18 +2,16 @@
 
 from __future__ import annotations
 
-import re
 from collections import Counter
 from collections.abc import Callable, Mapping, Sequence
 
 from ..conditions import Condition, Conditions, format_conditions, parse_conditions
 from ..errors import RecipeError
 from ..scene.collada.ids import clean
-from .conditions import IMAGE_NAME
+from .conditions import IMAGE_NAME, VARIABLE
 from .statements import Spoken
 from .table_properties import spoken_cell
 
-_VARIABLE = re.compile(r"\(([^()]+)\)")
 _LONG = 60  # what was typed for a spectrum and is longer does not name its file: tables of numbers
 
 
@@ -69,7 +67,7 @@ class Table:
         """
         if (known := self._columns.get(spoken.treatment)) is not None:
             return known
-        used = _VARIABLE.findall(spoken.text)
+        used = VARIABLE.findall(spoken.text)
         alone = only_user and len(used) == 1 and spoken.text == f"({used[0]})"
         variable = used[0] if alone else self._free(f"{clean(name)}Spectrum")
         if not alone:
@@ -94,7 +92,7 @@ class Table:
 
     def filled_in(self, row: int, spoken: Spoken) -> str:
         """Return the text of a spectrum with the cells of a condition in it."""
-        return _VARIABLE.sub(lambda found: self._cell(row, found[1], spoken.owner), spoken.text)
+        return VARIABLE.sub(lambda found: self._cell(row, found[1], spoken.owner), spoken.text)
 
     def _cell(self, row: int, variable: str, owner: str) -> str:
         if variable not in self._spoken[row]:

@@ -89,7 +89,7 @@ def test_a_condition_is_written_as_the_scene_set_up_by_hand(still, library, what
     mapping = library("blender.mapped")
     for number, cell in enumerate(cells):
         place, value = mapping.value_for(still.rtb.mappings[0], {"v": cell})
-        library("blender.varied").set_value(place, value)
+        library("blender.places").set_value(place, value)
         kept = [(each.thing, each.path, each.index, each.value) for each in still.rtb.mappings]
         still.rtb.mappings.clear()
         by_hand = resolved(library, read(still), number)
