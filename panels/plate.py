@@ -6,7 +6,7 @@ from collections.abc import Sequence
 from typing import TYPE_CHECKING
 
 from . import strokes
-from .numbers import number
+from .numbers import in_prefix, number
 
 if TYPE_CHECKING:
     from ..rtb_addon.probing import Difference, Probe
@@ -24,10 +24,11 @@ Curve = tuple["Probe", Sequence[float]]
 def numbers(probe: Probe, difference: Difference | None, first: str) -> list[str]:
     """Return what is written below the curve."""
     error = f" ± {probe.luminance_error:.2g}" if probe.region.pixels > 1 else ""
+    cones, prefix = in_prefix(probe.lms)
     rows = [
         f"L {number(probe.luminance)}{error} cd/m²",
         f"xy {probe.xy[0]:.3f} {probe.xy[1]:.3f}",
-        f"LMS {' '.join(map(number, probe.lms))}",
+        f"LMS {cones} {prefix}W/(sr m²)",
     ]
     if difference is not None:
         contrast = " ".join(f"{100 * each:+.0f}" for each in difference.cone_contrast)

@@ -6,7 +6,7 @@ from ..operators import pins
 from ..operators.copy_pins import RTB_OT_copy_pins
 from ..operators.export_pins import RTB_OT_export_pins
 from ..operators.remove_pin import RTB_OT_remove_pin
-from .numbers import draw_numbers, number
+from .numbers import draw_numbers, in_prefix, number
 from .sentences import draw_sentences
 from .spectrum_field import draw_curve
 
@@ -82,13 +82,14 @@ def spoken(probe) -> str:
 def measured(probe) -> list[tuple[str, str]]:
     """Return the numbers of a probe with their names."""
     error = f" ± {probe.luminance_error:.2g}" if probe.region.pixels > 1 else ""
+    cones, prefix = in_prefix(probe.lms)
     return [
         ("Renderer", probe.renderer),
         ("Pixels", f"{probe.region.width} × {probe.region.height}"),
         ("Luminance", f"{number(probe.luminance)}{error} cd/m²"),
         ("CIE xy", f"{probe.xy[0]:.4f}  {probe.xy[1]:.4f}"),
-        ("LMS", " ".join(map(number, probe.lms))),
-        ("", "W/(sr m²), CIE 2006 2°"),
+        ("LMS", cones),
+        ("", f"{prefix}W/(sr m²), CIE 2006 2°"),
     ]
 
 

@@ -236,3 +236,17 @@ def test_opening_a_file_forgets_pins_and_ends_the_viewer(folder, window_manager,
     assert len(bpy.context.window_manager.rtb_pins) == 0
     assert not viewing.seen
     assert child.poll() is not None
+
+
+@pytest.mark.parametrize(
+    ("values", "expected"),
+    [
+        ((0.0049, 0.00218, 0.000883), ("4.9 2.18 0.883", "m")),
+        ((1e-6, 2e-6, 3e-6), ("1 2 3", "µ")),
+        ((12.0, 0.5, 0.0), ("12 0.5 0", "")),
+        ((0.0, 0.0, 0.0), ("0 0 0", "")),
+        ((1234.0, 1e20, 0.0), ("1.23e-06 1e+11 0", "G")),
+    ],
+)
+def test_numbers_of_one_unit_are_short_and_its_prefix_is_said(module, values, expected):
+    assert module("panels.numbers").in_prefix(values) == expected
