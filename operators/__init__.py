@@ -2,7 +2,7 @@
 
 from bpy.utils import register_classes_factory
 
-from . import call_tooltips, command, image_editor, render_engine, running, watching
+from . import call_tooltips, command, image_editor, preferences, render_engine, running, watching
 from .add_condition import RTB_OT_add_condition
 from .add_material_preset import RTB_OT_add_material_preset
 from .add_variable import RTB_OT_add_variable
@@ -132,6 +132,7 @@ def register() -> None:
     """Make the operators known to Blender."""
     call_tooltips.add_to(CLASSES)
     _register()
+    preferences.offer_others()
     image_editor.register()
     running.register()
     render_engine.register()

@@ -10,7 +10,7 @@ from pathlib import Path
 
 from ..rtb_addon.background import Event, EventStream, start_child, stop
 from ..rtb_addon.spreadsheets import format_rows
-from .preferences import arguments
+from .preferred import arguments, renderer_folders
 
 GRACE = 0.5  # [s] that a child has to stop when asked, before it is ended
 NICENESS = 5
@@ -45,7 +45,9 @@ class ChildBatch:
         self._deadline: float | None = None
         # In one word, for a name may begin with a minus; quoted, for it may have commas.
         chosen = ["--conditions=" + format_rows([conditions], ",").strip()] if conditions else []
-        self._child = start_child(["render", str(folder), "--json", *chosen, *arguments()])
+        self._child = start_child(
+            ["render", str(folder), "--json", *chosen, *arguments()], folders=renderer_folders()
+        )
         self._events = EventStream(self._child)
         with suppress(
             OSError, AttributeError

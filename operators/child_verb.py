@@ -8,6 +8,8 @@ from typing import NamedTuple
 
 import bpy
 
+from .preferred import renderer_folders
+
 INTERVAL = 0.1  # [s] between two looks at whether the child has ended
 
 
@@ -17,6 +19,10 @@ class Ended(NamedTuple):
     status: int
     lines: list[str]
     complaints: list[str]
+
+    def last_words(self, doing: str) -> str:
+        """Return the sentence that it ended with."""
+        return self.complaints[-1] if self.complaints else f"{doing} ended without a word"
 
 
 class ChildVerb:
@@ -34,7 +40,7 @@ class ChildVerb:
         self._then = then
         self._found: Ended | None = None
         self._stopped = False
-        self._child = start_child(arguments)
+        self._child = start_child(arguments, folders=renderer_folders())
         self._thread = threading.Thread(target=self._listen, daemon=True)
         self._thread.start()
         if bpy.app.background:

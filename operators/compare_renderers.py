@@ -3,13 +3,15 @@
 from __future__ import annotations
 
 import json
+from functools import partial
+from pathlib import Path
 
 import bpy
 
-from ..rtb_addon.blender.folders import recipe_folder
-from ..rtb_addon.blender.properties import RENDERERS
+from ..rtb_addon.blender.folders import recipe_name, written_folder
+from ..rtb_addon.blender.renderer_choices import choices
 from ..rtb_addon.errors import RecipeError
-from . import findings
+from . import findings, montages
 from .child_verb import ChildVerb, Ended
 from .tell import tell
 
@@ -21,8 +23,8 @@ class RTB_OT_compare_renderers(bpy.types.Operator):
     bl_label = "Compare"
     bl_options = {"REGISTER"}
 
-    first: bpy.props.EnumProperty(name="Renderer", items=RENDERERS, default="mitsuba")
-    second: bpy.props.EnumProperty(name="Against", items=RENDERERS, default="tracer")
+    first: bpy.props.EnumProperty(name="Renderer", items=choices, default=1)
+    second: bpy.props.EnumProperty(name="Against", items=choices, default=2)
 
     def invoke(self, context, event):
         return context.window_manager.invoke_props_dialog(self, confirm_text="Compare")
@@ -35,35 +37,44 @@ class RTB_OT_compare_renderers(bpy.types.Operator):
 
     def execute(self, context):
         try:
-            folder = recipe_folder(context.scene)
+            folder = written_folder(context.scene)
         except RecipeError as error:
             return findings.refuse(self, error)
         ended: list[Ended] = []
-        renderers = f"{self.first},{self.second}"
-        child = ["compare", str(folder), "--renderers", renderers, "--json"]
-        ChildVerb(child, ended.append if bpy.app.background else _tell)
+        picture = comparison_picture(folder, context.scene, self.first, self.second)
+        child = ["compare", str(folder), "--renderers", f"{self.first},{self.second}", "--json"]
+        ChildVerb(child, ended.append if bpy.app.background else partial(_tell, picture))
         if ended and ended[0].status:
-            return findings.refuse(self, RecipeError(ended[0].complaints[-1]))
+            return findings.refuse(self, RecipeError(ended[0].last_words("comparing")))
         if ended:
-            _note(ended[0])
+            _note(ended[0], picture)
             self.report({"INFO"}, findings.remarks[-1])
         return {"FINISHED"}
 
 
-def _tell(ended: Ended) -> None:
+def comparison_picture(folder: Path, scene, first: str, second: str) -> Path:
+    """Return the file that comparing two renderers draws their difference into."""
+    return folder / "comparisons" / f"{first}-{second}" / f"{recipe_name(scene)}.png"
+
+
+def _tell(picture: Path, ended: Ended) -> None:
     """Tell how far they lie apart, where a window was kept alive meanwhile."""
     findings.clear()
     if ended.status:
-        findings.note(ended.complaints[-1:])
-        tell("ERROR", ended.complaints[-1] if ended.complaints else "comparing ended without a word")
+        findings.note([ended.last_words("comparing")])
+        tell("ERROR", ended.last_words("comparing"))
         return
-    _note(ended)
-    tell("INFO", "Compared: see the recipe's panel")
+    image = _note(ended, picture)
+    if (area := montages.editor(bpy.context)) is not None:
+        montages.show(image, area)
+    tell("INFO", f"Compared: see the recipe's panel, and the image {image.name}")
 
 
-def _note(ended: Ended) -> None:
+def _note(ended: Ended, picture: Path) -> bpy.types.Image:
+    """Take in the numbers, a sentence each, and the picture in false colours."""
     rows = [json.loads(line) for line in ended.lines if line.startswith("{")]
     findings.note(others=[_sentence(row) for row in rows])
+    return montages.load(picture, f"{picture.stem} {picture.parent.name}")
 
 
 def _sentence(row: dict[str, str]) -> str:

@@ -2,7 +2,7 @@
 
 import bpy
 
-from ..rtb_addon.blender.folders import recipe_folder
+from ..rtb_addon.blender.folders import written_folder
 from ..rtb_addon.errors import RecipeError
 from . import findings
 
@@ -16,9 +16,7 @@ class RTB_OT_open_folder(bpy.types.Operator):
 
     def execute(self, context):
         try:
-            folder = recipe_folder(context.scene)
-            if not folder.is_dir():
-                raise RecipeError(f"there is no folder {folder} yet, press Export Recipe")
+            folder = written_folder(context.scene)
         except RecipeError as error:
             return findings.refuse(self, error)
         return bpy.ops.wm.path_open(filepath=str(folder))

@@ -37,7 +37,7 @@ class RTB_OT_pack_recipe(bpy.types.Operator, ExportHelper):
         ended: list[Ended] = []
         ChildVerb(["pack", str(folder), str(file), *more], ended.append if bpy.app.background else _tell)
         if ended and ended[0].status:
-            return findings.refuse(self, RecipeError(ended[0].complaints[-1]))
+            return findings.refuse(self, RecipeError(ended[0].last_words("packing")))
         if ended:
             findings.note(others=_left_behind(ended[0]))
             self.report({"INFO"}, f"Packed into {file}")
@@ -47,8 +47,8 @@ class RTB_OT_pack_recipe(bpy.types.Operator, ExportHelper):
 def _tell(ended: Ended) -> None:
     """Tell how packing went, where a window was kept alive meanwhile."""
     if ended.status:
-        findings.note(ended.complaints[-1:])
-        tell("ERROR", ended.complaints[-1] if ended.complaints else "packing ended without a word")
+        findings.note([ended.last_words("packing")])
+        tell("ERROR", ended.last_words("packing"))
         return
     findings.note(others=_left_behind(ended))
     tell("INFO", f"Packed into {ended.lines[-1]}")

@@ -4,11 +4,11 @@ from __future__ import annotations
 
 import bpy
 
-from ..rtb_addon.blender.properties import RENDERERS
+from ..rtb_addon.blender import renderer_choices
+from ..rtb_addon.blender.own_spectra import EXTENSION
 from . import renderers_found, use_library_spectrum
+from .preferred import preferences
 from .test_renderers import RTB_OT_test_renderers
-
-EXTENSION = (__package__ or "").rpartition(".")[0]  # the name under which Blender has enabled us
 
 
 class RTB_AP_preferences(bpy.types.AddonPreferences):
@@ -21,8 +21,11 @@ class RTB_AP_preferences(bpy.types.AddonPreferences):
         description="Of new files; NAME stands for the recipe's name, // for the folder of the .blend",
         default="//rtb/NAME/",
         subtype="DIR_PATH",
+        options={"PATH_SUPPORTS_BLEND_RELATIVE"},
     )
-    renderer: bpy.props.EnumProperty(name="Renderer", description="Of new files", items=RENDERERS)
+    renderer: bpy.props.EnumProperty(
+        name="Renderer", description="Of new files", items=renderer_choices.choices, default=1
+    )
     spectra: bpy.props.StringProperty(
         name="Spectra",
         description="Folder of your own spectra, where imported ones go; empty: in Blender's user folder",
@@ -32,47 +35,40 @@ class RTB_AP_preferences(bpy.types.AddonPreferences):
     workers: bpy.props.IntProperty(
         name="Workers", description="Conditions rendered at once; 0: one for each core", min=0, soft_max=64
     )
+    renderers: bpy.props.StringProperty(
+        name="Further Renderers",
+        description="Folder of packages that bring renderers of their own, as pip install --target fills one",
+        subtype="DIR_PATH",
+        update=lambda self, context: renderers_found.found.clear(),
+    )
+    # Names that a test has found there, for the next start.
+    others: bpy.props.StringProperty(options={"HIDDEN"})
 
     def draw(self, context):
         layout = self.layout
         layout.use_property_split = True
         layout.use_property_decorate = False
-        for name in ("folder", "renderer", "workers", "spectra"):
-            layout.prop(self, name)
-        header, body = layout.panel("RTB_renderers", default_closed=False)
-        header.label(text="Renderers")
-        if body is not None:
-            draw_renderers(body)
+        layout.prop(self, "folder")
+        layout.prop(self, "renderer")
+        layout.prop(self, "workers", text="Workers" if self.workers else "Workers (0: Each Core)")
+        layout.prop(self, "spectra", placeholder="In Blender's User Folder")
+        layout.prop(self, "renderers", placeholder="None")
+        draw_renderers(layout.box())
 
 
 def draw_renderers(layout) -> None:
     """Draw which renderers are here, in which version, and why one is not."""
+    row = layout.row()
+    row.label(text="Renderers")
+    row.operator(RTB_OT_test_renderers.bl_idname, text="Test", icon="FILE_REFRESH")
     for name, found in renderers_found.found.items():
-        row = layout.row()
+        row = layout.split(factor=0.3)
         row.alert = found.version is None
         row.label(text=name.title(), icon="CHECKMARK" if found.version else "ERROR")
         row.label(text=found.version or found.reason)
-    layout.operator(RTB_OT_test_renderers.bl_idname, icon="FILE_REFRESH")
 
 
-def preferences() -> RTB_AP_preferences | None:
-    """Return what the user prefers, None where the extension is not enabled as one."""
-    addon = bpy.context.preferences.addons.get(EXTENSION)
-    return None if addon is None else addon.preferences
-
-
-def arguments() -> list[str]:
-    """Return what the command line is told of them."""
-    chosen = preferences()
-    return ["--jobs", str(chosen.workers)] if chosen is not None and chosen.workers else []
-
-
-def begin_file() -> None:
-    """Give the scenes of a new file what the user prefers."""
-    chosen = preferences()
-    if chosen is None or bpy.data.filepath:
-        return
-    for scene in bpy.data.scenes:
-        for name in ("folder", "renderer"):
-            if not scene.rtb.is_property_set(name) and chosen.is_property_set(name):
-                setattr(scene.rtb, name, getattr(chosen, name))
+def offer_others() -> None:
+    """Offer the renderers that a test has found in an earlier session."""
+    if (chosen := preferences()) is not None and chosen.others:
+        renderer_choices.learn(chosen.others.split())

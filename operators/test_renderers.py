@@ -7,8 +7,10 @@ import json
 import bpy
 
 from ..rtb_addon.blender.redrawing import redraw_panels
+from ..rtb_addon.blender.renderer_choices import OURS, learn
 from . import renderers_found
 from .child_verb import ChildVerb, Ended
+from .preferred import preferences
 
 
 class RTB_OT_test_renderers(bpy.types.Operator):
@@ -28,10 +30,14 @@ class RTB_OT_test_renderers(bpy.types.Operator):
 
 
 def _take(ended: Ended) -> None:
-    """Take in what the child has found."""
+    """Take in what the child has found; what other packages bring is offered from now on."""
     for line in ended.lines:
         words = json.loads(line)
         renderers_found.found[words["renderer"]] = renderers_found.Found(words["version"], words["reason"])
+    others = [name for name in renderers_found.found if name not in OURS]
+    learn(others)
+    if (chosen := preferences()) is not None:
+        chosen.others = " ".join(others)
     redraw_panels()
     for window in bpy.context.window_manager.windows:
         for area in window.screen.areas:

@@ -14,7 +14,7 @@ from bpy.props import (
     StringProperty,
 )
 
-from ..rtb_addon.blender.properties import RENDERERS
+from ..rtb_addon.blender.renderer_choices import RENDERERS
 from . import row_states, viewing
 
 KINDS = (

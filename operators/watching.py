@@ -10,7 +10,7 @@ import bpy
 
 from ..rtb_addon.blender import migration, preview
 from . import row_states, scene_edits, thumbnails
-from .preferences import begin_file
+from .preferred import begin_file
 from .render_engine import ENGINE
 
 

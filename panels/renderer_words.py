@@ -6,7 +6,7 @@ from collections.abc import Iterator, Sequence
 
 from ..rtb_addon.blender.fields import is_number
 from ..rtb_addon.blender.material_words import CHOICES, MODELS, is_typed, takes_texture, texture_of, words_of
-from ..rtb_addon.blender.properties import RENDERERS
+from ..rtb_addon.blender.renderer_choices import RENDERERS
 from ..rtb_addon.scene.vocabulary import MATERIALS
 from .sentences import draw_sentence
 

@@ -14,7 +14,7 @@ import sys
 import threading
 import time
 from collections import deque
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from contextlib import suppress
 from dataclasses import dataclass
 from pathlib import Path
@@ -82,7 +82,11 @@ class Event:
 
 
 def start_child(
-    arguments: list[str], module: str = "rtb_addon", threads: int | None = None, heard: bool = True
+    arguments: list[str],
+    module: str = "rtb_addon",
+    threads: int | None = None,
+    heard: bool = True,
+    folders: Sequence[str] = (),
 ) -> subprocess.Popen:
     """
     Start ``python -m rtb_addon ARGUMENTS`` with the Python that runs here.
@@ -101,6 +105,7 @@ def start_child(
     ----------
     threads : what numerical libraries may use; None leaves it to them
     heard : whether we read what it says; else that goes where what we say goes
+    folders : further ones that it imports from
     """
     output = subprocess.PIPE if heard else None
     early = _early.pop((module, *arguments, threads), None)
@@ -113,7 +118,7 @@ def start_child(
         stderr=output,
         encoding="utf-8",
         errors="replace",
-        env=_environment(threads),
+        env=_environment(threads, folders),
         # A group of its own: a Ctrl-C is the parent's to handle, and one kill takes its children too.
         start_new_session=True,
         creationflags=getattr(subprocess, "CREATE_NO_WINDOW", 0),
@@ -156,9 +161,9 @@ def import_folders() -> list[str]:
     return [folder for folder in dict.fromkeys(folders) if os.path.realpath(folder) not in own]
 
 
-def _environment(threads: int | None) -> dict[str, str]:
+def _environment(threads: int | None, folders: Sequence[str]) -> dict[str, str]:
     inherited = os.environ.get("PYTHONPATH", "").split(os.pathsep)
-    paths = dict.fromkeys([*import_folders(), *inherited])
+    paths = dict.fromkeys([*import_folders(), *folders, *inherited])
     # Linux ties a child to the thread that started it: only the main one lives as long as the process.
     bound = threading.current_thread() is threading.main_thread()
     ours = {

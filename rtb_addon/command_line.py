@@ -127,12 +127,20 @@ def compare(said: Namespace) -> int:
 def renderers_installed(said: Namespace) -> int:
     """Say which renderers are here, in which version, and why not."""
     for name in renderers.names():
-        version, reason = renderers.find(name).version()
+        version, reason = _found(name)
         if said.json:
             print(json.dumps({"renderer": name, "version": version, "reason": reason}))
         else:
             print(f"{name:<10} {version or 'missing: ' + reason}")
     return 0
+
+
+def _found(name: str) -> tuple[str | None, str]:
+    """Return a renderer's version, or None and why; a package that does not even load is one more reason."""
+    try:
+        return renderers.find(name).version()
+    except Exception as error:
+        return None, f"{type(error).__name__}: {error}"
 
 
 def _told(events: Iterable[Event]) -> Iterator[Event]:

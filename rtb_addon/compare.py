@@ -132,7 +132,7 @@ def _cube(recipe: Recipe, condition: Condition) -> SpectralImage:
     file, renderer = recipe.rendering_file(condition), recipe.options_of(condition).renderer
     if not file.is_file():
         raise RecipeError(
-            f"{condition.name} is not rendered with {renderer} yet, render it with --renderer {renderer}"
+            f"{condition.name} is not rendered with {renderer} yet, render it with {renderer} first"
         )
     return SpectralImage.load(file)
 

@@ -33,6 +33,14 @@ def recipe_folder(scene) -> Path:
     return Path(bpy.path.abspath(said))
 
 
+def written_folder(scene) -> Path:
+    """Return the folder of a scene's recipe once it was written."""
+    folder = recipe_folder(scene)
+    if not (folder / "recipe.json").is_file():
+        raise RecipeError(f"there is no recipe in {folder} yet, press Render Recipe")
+    return folder
+
+
 def typed(text: str, owner) -> str:
     """Return a spectrum as typed into a property of a datablock, a ``//`` file with its whole path."""
     text = text.strip()

@@ -15,17 +15,13 @@ from bpy.props import (
     StringProperty,
 )
 
-from . import table_properties
+from . import renderer_choices, table_properties
 from .conditions import set_conditions
 from .light_properties import RTB_PG_light, RTB_PG_object, RTB_PG_world
 from .material_properties import RTB_PG_material, RTB_PG_texture
 from .redrawing import redraw_panels
 from .table_properties import RTB_PG_condition, RTB_PG_kept, RTB_PG_mapping, RTB_PG_variable
 
-RENDERERS = (
-    ("mitsuba", "Mitsuba", "Mitsuba 3, all bands along each path", 1),
-    ("tracer", "Tracer", "The internal tracer, on numpy and Embree", 2),
-)
 INTEGRATORS = (
     ("path", "Path", "Light that is reflected many times", 1),
     ("direct", "Direct", "Light that comes straight from a lamp", 2),
@@ -119,7 +115,7 @@ class RTB_PG_scene(bpy.types.PropertyGroup):
         subtype="DIR_PATH",
         options={"PATH_SUPPORTS_BLEND_RELATIVE"},
     )
-    renderer: EnumProperty(name="Renderer", items=RENDERERS, default="mitsuba")
+    renderer: EnumProperty(name="Renderer", items=renderer_choices.choices, default=1)
     samples: IntProperty(name="Samples", description="Light paths per pixel", default=64, min=1)
     until_error: FloatProperty(
         name="Until Noise",

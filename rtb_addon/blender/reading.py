@@ -26,6 +26,7 @@ from .own_spectra import own_folders
 from .parent import Parent
 from .path_mappings import paths_text
 from .preview import suspended
+from .renderer_choices import renderer_of
 from .scene_looks import Look, look_of, looks_in_steps, remodeled_looks
 from .scene_recipe import SceneRecipe
 from .seen import seen_in
@@ -167,7 +168,7 @@ def _options(scene, camera: str) -> RecipeOptions:
     kept = section(RecipeOptions, json.loads(settings.further)) if settings.further else RecipeOptions()
     return replace(
         kept,
-        renderer=settings.renderer,
+        renderer=renderer_of(settings, f"the scene {scene.name}"),
         width=settings.width,
         height=settings.height,
         bands=(shortest(settings.bands_start), shortest(settings.bands_step), settings.bands_count),

@@ -204,7 +204,7 @@ def run_light_process(folder: Path, home: str) -> str:
 def test_a_process_that_dies_leaves_its_last_words(scene, module, tmp_path, monkeypatch):
     child_batch = module("operators.child_batch")
     start = module("rtb_addon.background").start_child
-    monkeypatch.setattr(child_batch, "start_child", lambda _: start([], module="rtb_addon.nowhere"))
+    monkeypatch.setattr(child_batch, "start_child", lambda *_, **__: start([], module="rtb_addon.nowhere"))
     batch = child_batch.ChildBatch(tmp_path)
     batch.follow_to_the_end()
     assert batch.failures == [f"{sys.executable}: No module named rtb_addon.nowhere"]

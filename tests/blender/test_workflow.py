@@ -11,6 +11,7 @@ import numpy as np
 import pytest
 
 from tests.blender.test_operators import sentence_of
+from tests.conftest import PLUGIN
 
 CUBE = Path("rtb/cube/renderings/tracer")
 
@@ -111,6 +112,13 @@ def test_renderers_are_tested_and_compared(scene, findings, module):
         bpy.ops.rtb.render_recipe()
     assert bpy.ops.rtb.compare_renderers(first="mitsuba", second="tracer") == {"FINISHED"}
     assert any(each.startswith("blue: the means' ratio is") for each in findings.remarks)
+    assert tuple(bpy.data.images["cube mitsuba-tracer"].size) == (2 * 24, 16)
+
+
+def test_comparing_says_what_is_to_be_rendered_first(scene, findings):
+    assert "press Render Recipe" in sentence_of(bpy.ops.rtb.compare_renderers)
+    bpy.ops.rtb.render_recipe()
+    assert "blue is not rendered with mitsuba yet" in sentence_of(bpy.ops.rtb.compare_renderers)
 
 
 def test_a_button_a_script_and_the_command_line_render_the_same_cubes_bit_for_bit(scene, module, tmp_path):
@@ -158,7 +166,7 @@ def test_every_buttons_tooltip_says_how_a_script_does_the_same(scene, module):
 
 
 def test_preferences_reach_new_files_and_the_command_line(extension, module):
-    preferences = module("operators.preferences")
+    preferences = module("operators.preferred")
     chosen = preferences.preferences()
     chosen.renderer, chosen.workers = "tracer", 3
     try:
@@ -174,4 +182,29 @@ def test_preferences_reach_new_files_and_the_command_line(extension, module):
 
 
 def test_a_folder_that_is_not_there_yet_is_not_opened(scene):
-    assert "Export Recipe" in sentence_of(bpy.ops.rtb.open_folder)
+    assert "press Render Recipe" in sentence_of(bpy.ops.rtb.open_folder)
+
+
+def test_renderers_of_other_packages_are_found_where_the_preferences_point_chosen_and_remembered(
+    scene, module
+):
+    chosen = module("operators.preferred").preferences()
+    chosen.renderers = str(PLUGIN)
+    try:
+        bpy.ops.rtb.test_renderers()
+        assert module("operators.renderers_found").found["plain"].version
+        assert chosen.others == "plain"
+        scene.rtb.renderer = "plain"
+        assert bpy.ops.rtb.render_recipe() == {"FINISHED"}
+        cubes = Path(bpy.path.abspath("//rtb/cube/renderings/plain"))
+        assert sorted(each.stem for each in cubes.glob("*.exr")) == ["blue", "green"]
+    finally:
+        chosen.renderers = chosen.others = ""
+
+
+def test_a_renderer_that_is_not_known_any_more_is_said(scene, module, monkeypatch):
+    choices = module("rtb_addon.blender.renderer_choices")
+    choices.learn(["gone"])
+    scene.rtb.renderer = "gone"
+    monkeypatch.setattr(choices, "_offered", [*choices.RENDERERS])
+    assert "the renderer of the scene Scene is not known here" in sentence_of(bpy.ops.rtb.render_recipe)

@@ -55,6 +55,18 @@ def test_render_shows_progress_and_says_where_things_are(write_family, run):
     assert run("render", recipe.folder)[1].startswith("0 rendered, 2 found done, 0 failed")
 
 
+def test_a_renderer_whose_package_does_not_load_is_missing_and_says_why(tmp_path, monkeypatch, run):
+    (tmp_path / "broken-1.0.dist-info").mkdir()
+    entry = "[rtb_addon.renderers]\nbroken = nowhere_at_all:Renderer\n"
+    (tmp_path / "broken-1.0.dist-info/entry_points.txt").write_text(entry)
+    monkeypatch.syspath_prepend(str(tmp_path))
+    status, output, _ = run("renderers")
+    said = {line.split()[0]: line for line in output.splitlines()}
+    assert status == 0
+    assert "missing: ModuleNotFoundError: No module named 'nowhere_at_all'" in said["broken"]
+    assert "missing" not in said["plain"]
+
+
 def test_a_condition_whose_name_has_a_comma_in_it_is_named_in_quotes(write_family, run):
     recipe = write_family({"dark, wet": "0.2", "dark": "0.3", "wet": "0.4", "-5": "0.8"})
     said = run("render", recipe.folder, "--jobs", 1, "--conditions", '"dark, wet",wet')[1]
