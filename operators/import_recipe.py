@@ -52,14 +52,17 @@ class RTB_OT_import_recipe(bpy.types.Operator, ImportHelper):
         chosen = chosen or [Path(bpy.path.abspath(self.filepath))]
         try:
             folder, odd = self.folder_of(chosen)
-            scene, left_out = open_recipe(folder)
+            scenes, left_out = open_recipe(folder)
         except RecipeError as error:
             return findings.refuse(self, error)
         if context.window is not None:
-            context.window.scene = scene
+            context.window.scene = scenes[0]
         findings.clear()
         findings.note(others=[*odd, *left_out])
-        self.report({"INFO"}, f"{scene.rtb.name} is open in a scene of its own")
+        names = ", ".join(each.rtb.name for each in scenes)
+        self.report(
+            {"INFO"}, f"Open in {'scenes of their own' if len(scenes) > 1 else 'a scene of its own'}: {names}"
+        )
         return {"FINISHED"}
 
     def folder_of(self, chosen: list[Path]) -> tuple[Path, list[str]]:

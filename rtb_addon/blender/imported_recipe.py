@@ -13,42 +13,54 @@ from ..errors import RecipeError
 from ..recipe import Recipe
 from ..recipe.options import section_words
 from .conditions import IMAGE_NAME, set_conditions
+from .imported_parts import Part, parts_of
 from .imported_scene import Importer
-from .json_mappings import as_blocks
 
 # Options that the scene has properties for; others are kept as they are.
 _SAME = ("width", "height", "samples", "seed", "integrator", "depth", "filter", "band_kind")
 _OWN = (*_SAME, "renderer", "bands", "until_error", "layers", "camera")
 
 
-def open_recipe(folder: Path | str) -> tuple[bpy.types.Scene, list[str]]:
+def open_recipe(folder: Path | str) -> tuple[list[bpy.types.Scene], list[str]]:
     """
-    Put a recipe into a new scene of the open file, and return that with what is left out.
+    Put a recipe into new scenes of the open file, and return them with what is left out.
 
-    What it renders stays the same: mappings come along as they are written, spectra stay where they lie.
+    What it renders stays the same: mappings come along as they are written, spectra stay where they lie. A
+    scene of Blender has one parent scene and one list of mappings; rows that have others go into scenes of
+    their own.
     """
     recipe = Recipe.load(folder)
-    conditions, options = recipe.conditions, recipe.options
-    parents = dict.fromkeys(row.parent_scene for row in conditions)
-    document = recipe.parent_of(conditions.rows[0])
-    scene = bpy.data.scenes.new(recipe.name)
-    importer = Importer(document, scene, (options.width, options.height))
+    scenes: list[bpy.types.Scene] = []
+    remarks: list[str] = []
     try:
-        importer.put()
+        for part in parts_of(recipe):
+            scenes.append(bpy.data.scenes.new(part.name))
+            remarks += _fill(scenes[-1], recipe, part)
     except BaseException:
-        _remove(scene)
+        for scene in scenes:
+            _remove(scene)
         raise
+    if len(scenes) > 1:
+        names = ", ".join(each.name for each in scenes)
+        remarks.append(
+            f"its rows have {len(scenes)} parent scenes or mappings, each is a scene here: {names}"
+        )
+    return scenes, list(dict.fromkeys(remarks))
+
+
+def _fill(scene, recipe: Recipe, part: Part) -> list[str]:
+    """Put a part of a recipe into a scene, and return what is left out."""
+    importer = Importer(part.document, scene, (recipe.options.width, recipe.options.height))
+    importer.put()
     settings = scene.rtb
-    settings.name = recipe.name
+    settings.name = part.name
     if (resources := recipe.folder / "resources").is_dir():
         settings.resources = str(resources)
     settings.units, settings.handedness = recipe.conventions.units, recipe.conventions.handedness
     remarks = [*importer.remarks, *_set_options(scene, recipe)]
-    remarks += _set_table(scene, recipe, importer.renamed)
-    _set_camera(scene, importer, options.camera)
-    if len(parents) > 1:
-        remarks.append(f"conditions have {len(parents)} parent scenes, that of the first one was opened")
-    return scene, remarks
+    _set_table(scene, part, importer.renamed)
+    _set_camera(scene, importer, recipe.options.camera)
+    return remarks
 
 
 def _set_options(scene, recipe: Recipe) -> list[str]:
@@ -70,28 +82,14 @@ def _set_options(scene, recipe: Recipe) -> list[str]:
     return []
 
 
-def _set_table(scene, recipe: Recipe, renamed: Mapping[str, str]) -> list[str]:
+def _set_table(scene, part: Part, renamed: Mapping[str, str]) -> None:
     """Fill in the table and the mappings; a single condition without table stays one."""
-    rows, remarks = recipe.conditions, []
-    lost = [name for name in ("colladaFile", "parentScene", "mappingsFile") if name in rows.variables]
-    if lost:
-        remarks.append(f"the columns {', '.join(lost)} are left out, a scene of Blender has one parent scene")
-    variables = [each for each in dict.fromkeys(rows.variables) if each not in (IMAGE_NAME, *lost)]
-    cells = [[row.cells[name] for name in variables] for row in rows]
-    text, added = recipe.mappings.text, {}
-    if recipe.mappings.is_json:
-        text, added = as_blocks(recipe)
-    names = [row.name for row in rows]
-    table = [
-        [name, *row, *(values[number] for values in added.values())]
-        for number, (name, row) in enumerate(zip(names, cells, strict=True))
-    ]
-    if rows.variables or added:
-        set_conditions(scene, [IMAGE_NAME, *variables, *added], table)
-    if text.strip():
-        scene.rtb.mappings_text = bpy.data.texts.new(f"{recipe.name} mappings")
-        scene.rtb.mappings_text.write(_with_ids(text, renamed))
-    return remarks
+    if part.columns or part.rows[0].cells:
+        rows = zip((row.name for row in part.rows), *part.columns.values(), strict=True)
+        set_conditions(scene, [IMAGE_NAME, *part.columns], rows)
+    if part.mappings.strip():
+        scene.rtb.mappings_text = bpy.data.texts.new(f"{part.name} mappings")
+        scene.rtb.mappings_text.write(_with_ids(part.mappings, renamed))
 
 
 def _with_ids(text: str, renamed: Mapping[str, str]) -> str:

@@ -1,5 +1,6 @@
 """Recipes opened in Blender: what they render stays the same."""
 
+import sys
 from pathlib import Path
 
 import bpy
@@ -187,6 +188,113 @@ def test_a_scene_whose_y_axis_is_up_keeps_the_meaning_of_its_paths(recipe, reope
     file.write_text(file.read_text().replace("<up_axis>Z_UP</up_axis>", "<up_axis>Y_UP</up_axis>"))
     folder = reopened(filepath=str(recipe.folder))
     assert_renders_the_same(scenes_of(library, recipe.folder), scenes_of(library, folder))
+
+
+def opened_and_written(library, tmp_path, **said) -> list[Path]:
+    """Open something in Blender and write every scene that it became: the folders that come out."""
+    before = set(bpy.data.scenes)
+    assert bpy.ops.rtb.import_recipe(**said) == {"FINISHED"}
+    opened = [each for each in bpy.data.scenes if each not in before]
+    return [library("blender").read_recipe(each).save(tmp_path / "again" / each.rtb.name) for each in opened]
+
+
+def assert_rows_render_the_same(library, recipe: Path, folders: list[Path]) -> None:
+    """Compare each row of a recipe with that of the folder that has it; ids differ where names clash."""
+    once = scenes_of(library, recipe)
+    again = {name: scene for folder in folders for name, scene in scenes_of(library, folder).items()}
+    assert sorted(once) == sorted(again)
+    for name, one in once.items():
+        other = again[name]
+        np.testing.assert_allclose(one.camera.to_world, other.camera.to_world, atol=2e-6)
+        for first, second in zip(one.lights, other.lights, strict=True):
+            np.testing.assert_allclose(first.to_world, second.to_world, atol=2e-6)
+        for first, second in zip(one.shapes, other.shapes, strict=True):
+            np.testing.assert_allclose(corners(first), corners(second), atol=1e-5)
+            before, after = one.materials[first.material], other.materials[second.material]
+            assert before.model == after.model
+            assert_parameters(before.parameters, after.parameters)
+
+
+def test_rows_with_parent_scenes_of_their_own_become_scenes_of_their_own(
+    scene, recipe, library, builder, tmp_path
+):
+    other = builder.SceneBuilder()
+    other.camera("Camera", placement=builder.Placement(location=(0, 0, 9)))
+    other.point("Lamp", placement=builder.Placement(location=(3, 2, 1)))
+    other.spot("Sun", placement=builder.Placement(location=(0, 0, 5)))
+    other.plane("Floor", material="Paint")
+    other.plane("Wall", material="Gloss", placement=builder.Placement(rotation=(90, 0, 0)))
+    (recipe.folder / "resources/hall.dae").write_bytes(other.tobytes())
+    table = recipe.folder / "conditions.txt"
+    rows = [f"{line}\t" for line in table.read_text().splitlines()]
+    rows[0] += "colladaFile"
+    rows[1] += "parent.dae"
+    rows[2] += "resources/hall.dae"
+    table.write_text("\n".join(rows) + "\n")
+    (recipe.folder / "mappings.txt").write_text(
+        "Collada {\n    Lamp:translate|sid=location = 1 2 (height)\n}\nGeneric {\n"
+        "    Paint-material:material:matte\n    Paint-material:diffuseReflectance.spectrum = (paint)\n}\n"
+    )
+    folders = opened_and_written(library, tmp_path, filepath=str(recipe.folder))
+    assert sorted(each.name for each in folders) == ["old-hall", "old-parent"]
+    assert_rows_render_the_same(library, recipe.folder, folders)
+    assert any("each is a scene here" in each for each in library_findings(library))
+
+
+def library_findings(library) -> list[str]:
+    """Return what the panel says was left out."""
+    return sys.modules[
+        f"{library('errors').__package__.partition('.rtb_addon')[0]}.operators.findings"
+    ].remarks
+
+
+def in_json(builder, library, tmp_path, changes: str) -> tuple[Path, dict]:
+    """Write old files with mappings in JSON; return the folder that they are without Blender, and which."""
+    scene = builder.SceneBuilder()
+    scene.camera("Camera", placement=builder.Placement(location=(0, 0, 6)))
+    scene.point("Lamp", placement=builder.Placement(location=(1, 2, 3)))
+    scene.point("Spare", placement=builder.Placement(location=(-1, 2, 3)))
+    scene.plane("Floor", material="Paint")
+    (tmp_path / "scene.dae").write_bytes(scene.tobytes())
+    (tmp_path / "table.txt").write_text(
+        "imageName\tgroupName\tpaint\na\tmatte\t0.2\nb\tshiny\t0.7\nc\tmatte\t0.4\n"
+    )
+    (tmp_path / "mappings.json").write_text(changes)
+    names = ("scene.dae", "table.txt", "mappings.json")
+    library("old_recipes").import_recipe(*(tmp_path / name for name in names), tmp_path / "plain")
+    return tmp_path / "plain", {
+        "directory": f"{tmp_path}/",
+        "files": [{"name": name} for name in names],
+        "output": str(tmp_path / "made"),
+    }
+
+
+PAINTED = """{ "name": "Paint", "broadType": "materials", "specificType": "matte", "operation": "update",
+               "group": "matte", "properties": { "name": "diffuseReflectance", "valueType": "spectrum",
+                                                 "value": "(paint)" } },
+             { "name": "Paint", "broadType": "materials", "specificType": "anisoward",
+               "operation": "update", "group": "shiny", "properties": [
+                 { "name": "diffuseReflectance", "valueType": "spectrum", "value": "(paint)" },
+                 { "name": "alphaU", "valueType": "float", "value": 0.2 } ] }"""
+
+
+def test_mappings_in_json_that_change_other_things_in_other_rows_become_groups(
+    scene, builder, library, tmp_path
+):
+    plain, files = in_json(builder, library, tmp_path, f"[ {PAINTED} ]")
+    folders = opened_and_written(library, tmp_path, **files)
+    assert len(folders) == 1
+    assert_rows_render_the_same(library, plain, folders)
+
+
+def test_what_mappings_in_json_delete_is_not_in_the_scene_of_those_rows(scene, builder, library, tmp_path):
+    gone = """{ "name": "Spare", "broadType": "nodes", "operation": "delete", "group": "shiny",
+                "destination": "mexximp", "properties": [] }"""
+    plain, files = in_json(builder, library, tmp_path, f"[ {gone}, {PAINTED} ]")
+    folders = opened_and_written(library, tmp_path, **files)
+    assert [each.name for each in folders] == ["scene-1", "scene-2"]
+    assert_rows_render_the_same(library, plain, folders)
+    assert len(scenes_of(library, folders[1])["b"].lights) == 1
 
 
 @pytest.mark.parametrize(
