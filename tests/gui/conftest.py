@@ -35,9 +35,17 @@ class RealBlender(NamedTuple):
             command, env=self.environment, capture_output=True, text=True, timeout=timeout, check=False
         )
 
-    def run_script(self, script: str, report: Path, *arguments: str, window: bool) -> dict:
-        """Run one of this folder's scripts, in a window or without, and return its report."""
-        mode = ["--enable-event-simulate"] if window else ["-b"]
+    def run_script(
+        self, script: str, report: Path, *arguments: str, window: bool, simulated: bool = True
+    ) -> dict:
+        """
+        Run one of this folder's scripts, in a window or without, and return its report.
+
+        Parameters
+        ----------
+        simulated : whether the window's events come from the script, and no others do
+        """
+        mode = (["--enable-event-simulate"] if simulated else []) if window else ["-b"]
         finished = self.run(
             *mode, "--python-exit-code", "3", "--python", str(HERE / script), "--", str(report), *arguments
         )

@@ -16,6 +16,7 @@ def rendering(driver: Driver, folder: Path):
     """Choose the engine, look at its settings, render by F12, then break a rendering off."""
     make_recipe(folder, 2, "tracer", samples=100, size=(160, 120))
     scene = bpy.context.scene
+    driver.report["folder"] = str(folder)
     scene.render.engine = "RENDERTOOLBOX"
     scene.rtb.active_condition = 1
     bpy.context.preferences.view.render_display_type = "AREA"
@@ -51,7 +52,7 @@ def break_off(driver: Driver):
     while not children():
         yield 0.1
     yield 1.0
-    # Of simulated keys Blender's renderings hear nothing: Esc reaches them by another way than events.
+    # Of simulated keys Blender's jobs hear nothing; in_escape.py presses a real one.
     x, y = cancel_button(driver, driver.photograph("engine-rendering"))
     begin = time.perf_counter()
     yield from driver.click(x, y)

@@ -1,26 +1,24 @@
-"""RenderToolbox as a render engine in a real window: F12, and the button that ends it."""
+"""RenderToolbox as a render engine in a real window: F12, and what ends it."""
 
 from pathlib import Path
 
 import pytest
 
-PICTURES = Path(__file__).resolve().parents[2] / "build/screenshots"
+SCRIPT, WINDOW = "in_engine.py", True
 PHOTOGRAPHS = ("engine-render", "engine-material", "engine-light", "engine-result", "engine-rendering")
 
 
 @pytest.fixture(scope="module")
-def report(blender, tmp_path_factory):
-    """What was found out in the window."""
-    folder = tmp_path_factory.mktemp("engine")
-    return blender.run_script(
-        "in_engine.py", folder / "report.json", str(folder / "home"), str(PICTURES), window=True
-    )
+def by_keys(blender, tmp_path_factory):
+    """What was found out with a real keyboard."""
+    folder = tmp_path_factory.mktemp("escape")
+    places = folder / "report.json", str(folder / "home"), str(folder)
+    return blender.run_script("in_escape.py", *places, window=True, simulated=False)
 
 
 @pytest.mark.parametrize("name", PHOTOGRAPHS)
-def test_every_photograph_shows_something(report, name):
-    assert (PICTURES / f"{name}.png").is_file()
-    assert report["colours"][name] > 500
+def test_every_photograph_shows_something(shows, name):
+    assert shows(name)
 
 
 def test_f12_renders_the_active_condition_in_another_process_and_keeps_its_cube(report):
@@ -36,3 +34,19 @@ def test_f12_renders_the_active_condition_in_another_process_and_keeps_its_cube(
 def test_a_rendering_that_is_broken_off_leaves_no_process(report):
     assert report["stopped after"] < 5  # most of it is Blender's drawing, in software
     assert report["left"] == []
+
+
+def test_blenders_command_line_renders_frames_and_keeps_their_cubes(blender, report):
+    folder = Path(report["folder"])
+    picture = ["-o", str(folder / "frame-####"), "-F", "PNG", "-f", "1..2"]
+    finished = blender.run("-b", str(folder / "cube.blend"), "-E", "RENDERTOOLBOX", *picture)
+    assert finished.returncode == 0, finished.stderr
+    assert [file.name for file in sorted(folder.glob("frame-*"))] == ["frame-0001.png", "frame-0002.png"]
+    kept = [file.relative_to(folder / "rtb/cube/still") for file in folder.rglob("renderings/tracer/*.exr")]
+    assert {file.parts[0] for file in kept} == {"0001", "0002", "renderings"}
+
+
+def test_esc_of_a_real_keyboard_ends_a_rendering_and_leaves_no_process(by_keys):
+    assert by_keys["started"] == [True, True]
+    assert by_keys["stopped after"] < 3
+    assert by_keys["left"] == []
