@@ -13,19 +13,19 @@ import numpy as np
 
 from ..rtb_addon.blender import preview
 from ..rtb_addon.blender.colours import xyz_to_working_space
-from ..rtb_addon.blender.folders import recipe_folder, safe_name
+from ..rtb_addon.blender.folders import safe_name
 from ..rtb_addon.blender.properties import rendered_size
 from ..rtb_addon.blender.reading import read_rendered
 from ..rtb_addon.developing import daylight_efficacy
-from ..rtb_addon.errors import RecipeError, RenderingError
+from ..rtb_addon.errors import RenderingError
 from ..rtb_addon.recipe import Recipe
 from .child_batch import ChildBatch
+from .stills import still_home
 from .viewer_child import ViewerChild
 
 if TYPE_CHECKING:
     from .render_engine import RTB_RE_engine
 
-STILL = "still"  # the folder, below the recipe's, of what Blender's own Render Image renders
 INTERVAL = 0.05  # [s] between two looks at what the child has said
 
 
@@ -52,19 +52,14 @@ class EngineRendering:
         recipe = read_rendered(self.scene, self.depsgraph)
         for remark in recipe.report:
             self.engine.report({"INFO"}, remark)
-        options = replace(recipe.options, crop=_framed(self.scene.render))
-        folder = replace(recipe, options=options).save(self._home() / self._part())
+        home, options = still_home(self.scene), replace(recipe.options, crop=_framed(self.scene.render))
+        if recipe.folder is None:
+            remark = f"the .blend is not saved, its cube is in {home} until Blender ends"
+            self.engine.report({"WARNING"}, remark)
+        still = replace(recipe, name=f"{recipe.name} still", options=options)
+        folder = still.save(home / self._part())
         if self._rendered(folder):
             self._show(folder)
-
-    def _home(self) -> Path:
-        """Return the folder below the recipe's that keeps the cubes; of an unsaved file one that passes."""
-        try:
-            return recipe_folder(self.scene) / STILL
-        except RecipeError:
-            home = Path(bpy.app.tempdir) / STILL
-        self.engine.report({"WARNING"}, f"the .blend is not saved, its cube is in {home} until Blender ends")
-        return home
 
     def _part(self) -> Path:
         """Return what tells pictures of a scene apart: the view layer where there are several, the frame."""

@@ -6,8 +6,16 @@ from .export_pins import RTB_OT_export_pins
 from .hover_probe import RTB_OT_hover_probe
 from .probe import RTB_OT_probe
 from .remove_pin import RTB_OT_remove_pin
+from .show_still import RTB_OT_show_still
 
-CLASSES = (RTB_OT_hover_probe, RTB_OT_probe, RTB_OT_remove_pin, RTB_OT_copy_pins, RTB_OT_export_pins)
+CLASSES = (
+    RTB_OT_show_still,
+    RTB_OT_hover_probe,
+    RTB_OT_probe,
+    RTB_OT_remove_pin,
+    RTB_OT_copy_pins,
+    RTB_OT_export_pins,
+)
 
 
 def register() -> None:

@@ -19,6 +19,7 @@ class RTB_OT_show_montage(bpy.types.Operator):
             if bpy.app.background:
                 montages.load(montage_file(context.scene), recipe_name(context.scene))
             else:
+                context.window_manager.rtb_view.condition = ""
                 viewing.show(recipe_folder(context.scene), open_editor=True)
         except RecipeError as error:
             return findings.refuse(self, error)

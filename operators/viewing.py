@@ -17,6 +17,7 @@ from ..rtb_addon.blender.properties import RTB_PG_scene
 from ..rtb_addon.blender.redrawing import redraw_panels
 from ..rtb_addon.errors import RecipeError
 from . import montages
+from .stills import still_home
 from .tell import tell
 
 if TYPE_CHECKING:
@@ -56,6 +57,8 @@ def follow(batch) -> None:
         ask("wake", {"verb": "wake"}, lambda answer: None)  # so that the first picture comes at once
     if batch.finished and (before := _followed) != (batch.folder, batch.finished):
         _followed = batch.folder, batch.finished
+        if before is None and batch.total > 1:
+            bpy.context.window_manager.rtb_view.condition = ""
         show(batch.folder, open_editor=before is None)
 
 
@@ -69,7 +72,7 @@ def refresh(scene) -> None:
     """Show a scene's renderings anew where they are shown already."""
     if seen or sentence:
         try:
-            show(recipe_folder(scene))
+            show(Path(seen["folder"]) if shows(scene) else recipe_folder(scene))
         except RecipeError as error:
             _complain(str(error))
 
@@ -115,9 +118,14 @@ def tiles() -> Tiles:
     return _tiles
 
 
-def shows(scene) -> bool:
+def shows_recipe(scene) -> bool:
     """Whether the picture is of a scene's recipe."""
     return bool(seen) and _is_folder_of(scene, Path(seen["folder"]))
+
+
+def shows(scene) -> bool:
+    """Whether the picture is of a scene's recipe, or of what Render Image has rendered of it."""
+    return shows_recipe(scene) or (bool(seen) and Path(seen["folder"]).is_relative_to(still_home(scene)))
 
 
 def forget() -> None:

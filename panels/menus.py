@@ -15,6 +15,7 @@ from ..operators.preview_condition import RTB_OT_preview_condition
 from ..operators.render_condition import RTB_OT_render_condition
 from ..operators.render_recipe import RTB_OT_render_recipe
 from ..operators.show_montage import RTB_OT_show_montage
+from ..operators.show_still import RTB_OT_show_still
 from ..operators.vary_property import RTB_OT_vary_property
 from ..rtb_addon.blender import mapping_edits
 from ..rtb_addon.blender.fields import field_of
@@ -23,6 +24,7 @@ IN_RENDER = (
     RTB_OT_render_condition,
     RTB_OT_cancel_rendering,
     RTB_OT_show_montage,
+    RTB_OT_show_still,
     RTB_OT_check_recipe,
     RTB_OT_preview_condition,
     RTB_OT_edit_mappings_text,

@@ -47,7 +47,9 @@ def draw_settings(layout, settings) -> None:
     header, layers = layout.panel("RTB_PT_render_settings_layers", default_closed=True)
     header.label(text="Layers")
     if layers is not None:
-        layers.column(align=True).prop(settings, "layers", expand=True)
+        column = layers.column(align=True)
+        column.use_property_split = False
+        column.prop(settings, "layers")
     header, advanced = layout.panel("RTB_PT_render_settings_advanced", default_closed=True)
     header.label(text="Advanced")
     if advanced is not None:

@@ -3,7 +3,9 @@
 import bpy
 
 from ..operators import running, viewing
+from ..operators.render_engine import ENGINE
 from ..operators.show_montage import RTB_OT_show_montage
+from ..operators.show_still import RTB_OT_show_still
 from .numbers import draw_numbers, number
 from .progress import draw_progress
 from .sentences import draw_sentences
@@ -24,6 +26,8 @@ class RTB_PT_rendering(bpy.types.Panel):
         layout.use_property_decorate = False
         if running.batch is not None:
             draw_progress(layout, running.batch)
+        if shows_render_result(context):
+            layout.operator(RTB_OT_show_still.bl_idname, icon="RENDER_RESULT")
         if viewing.seen and not viewing.shows(context.scene):
             draw_sentences(layout, [f"The picture is of {viewing.seen['name']}"], context.region.width)
         if not viewing.shows(context.scene) and not viewing.sentence:
@@ -33,6 +37,12 @@ class RTB_PT_rendering(bpy.types.Panel):
         draw_sentences(
             layout, [viewing.sentence] if viewing.sentence else [], context.region.width, alert=True
         )
+
+
+def shows_render_result(context) -> bool:
+    """Whether the editor shows what Blender's own Render Image has rendered with our engine."""
+    image = context.space_data.image
+    return image is not None and image.type == "RENDER_RESULT" and context.scene.render.engine == ENGINE
 
 
 def draw_view(layout, view) -> None:

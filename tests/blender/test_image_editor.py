@@ -183,6 +183,24 @@ def test_the_montage_is_arranged_as_the_scene_says(folder, window_manager, modul
     settings.montage_columns = 0
 
 
+def test_what_render_image_has_rendered_is_looked_at_and_probed(folder, window_manager, module, monkeypatch):
+    viewing, scene = module("operators.viewing"), bpy.context.scene
+    monkeypatch.setattr(scene.render, "engine", "RENDERTOOLBOX")
+    with pytest.raises(RuntimeError, match="press F12"):
+        bpy.ops.rtb.show_still()
+    bpy.ops.render.render()
+    assert bpy.ops.rtb.show_still() == {"FINISHED"}
+    assert viewing.shows(scene)
+    assert not viewing.shows_recipe(scene)
+    assert viewing.seen["name"] == "cube still"
+    bpy.ops.rtb.probe(condition="blue", region=(9, 6, 4, 3))
+    still = SpectralImage.load(folder / "still/renderings/tracer/blue.exr").radiance[6:9, 9:13]
+    probe = module("operators.pins").probe_of(window_manager.rtb_pins[0].words)
+    np.testing.assert_allclose(probe.radiance, still.reshape(-1, 31).astype(float).mean(axis=0))
+    window_manager.rtb_view.kind = "luminance"
+    assert viewing.seen["folder"] == str(folder / "still")
+
+
 def test_a_pin_is_drawn_only_where_the_picture_shows_what_it_measured(folder, window_manager, module):
     viewing, pins = module("operators.viewing"), module("operators.pins")
     viewing.show(folder)
@@ -201,8 +219,9 @@ def drawn(module, name: str, kind: str) -> RecordingLayout:
     panel, layout = getattr(module(f"panels.{name}"), kind), RecordingLayout()
     stand_in = type(kind, (), {"draw": panel.draw, "layout": layout})()
     region = type("Region", (), {"width": 250})
+    space = type("Space", (), {"image": None})
     seen = {name: getattr(bpy.context, name) for name in ("scene", "window_manager", "preferences")}
-    stand_in.draw(type("Context", (), {**seen, "region": region}))
+    stand_in.draw(type("Context", (), {**seen, "region": region, "space_data": space}))
     return layout
 
 
