@@ -21,6 +21,7 @@ from .export_recipe import RTB_OT_export_recipe
 from .fill_from_library import RTB_OT_fill_from_library
 from .fill_graded import RTB_OT_fill_graded
 from .fill_grid import RTB_OT_fill_grid
+from .fill_list import RTB_OT_fill_list
 from .fill_pairs import RTB_OT_fill_pairs
 from .fill_random import RTB_OT_fill_random
 from .fill_range import RTB_OT_fill_range
@@ -92,6 +93,7 @@ CLASSES = (
     RTB_OT_fill_from_library,
     RTB_OT_fill_graded,
     RTB_OT_fill_grid,
+    RTB_OT_fill_list,
     RTB_OT_fill_random,
     RTB_OT_fill_range,
     RTB_OT_import_conditions,

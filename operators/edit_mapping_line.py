@@ -12,12 +12,15 @@ class RTB_OT_edit_mapping_line(LineVerb, bpy.types.Operator):
     bl_idname = "rtb.edit_mapping_line"
     bl_label = "Edit Line"
 
-    text: bpy.props.StringProperty(name="Line")
+    text: bpy.props.StringProperty(name="Line", description="As the mappings' text will have it")
 
     def invoke(self, context, event):
         lines, _ = written_mappings.written_lines(context.scene)
         self.text = next((each.text for each in lines if each.line == self.line), "")
         return context.window_manager.invoke_props_dialog(self, width=420, confirm_text="Change")
+
+    def draw(self, context):
+        self.layout.prop(self, "text", text="")
 
     def edit(self, context):
         written_mappings.rewrite(context.scene, self.line, self.text)

@@ -26,6 +26,7 @@ class RTB_OT_fill_pairs(DesignVerb, bpy.types.Operator):
 
     def draw(self, context):
         self.layout.use_property_split = True
+        self.layout.use_property_decorate = False
         self.layout.prop_search(self, "object", bpy.data, "objects")
         super().draw(context)
 

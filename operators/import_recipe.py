@@ -26,7 +26,7 @@ class RTB_OT_import_recipe(bpy.types.Operator, ImportHelper):
     )
     directory: bpy.props.StringProperty(subtype="DIR_PATH", options={"HIDDEN", "SKIP_SAVE"})
     output: bpy.props.StringProperty(
-        name="Folder",
+        name="Recipe Folder",
         description="For the recipe of old files or a zip; empty: beside them, called after them",
         subtype="DIR_PATH",
         options={"SKIP_SAVE"},

@@ -10,6 +10,7 @@ from ..operators.export_conditions import RTB_OT_export_conditions
 from ..operators.fill_from_library import RTB_OT_fill_from_library
 from ..operators.fill_graded import RTB_OT_fill_graded
 from ..operators.fill_grid import RTB_OT_fill_grid
+from ..operators.fill_list import RTB_OT_fill_list
 from ..operators.fill_pairs import RTB_OT_fill_pairs
 from ..operators.fill_random import RTB_OT_fill_random
 from ..operators.fill_range import RTB_OT_fill_range
@@ -23,6 +24,7 @@ from ..operators.set_variable_kind import RTB_OT_set_variable_kind
 
 DESIGNS = (
     RTB_OT_fill_from_library,
+    RTB_OT_fill_list,
     RTB_OT_fill_range,
     RTB_OT_fill_grid,
     RTB_OT_fill_random,

@@ -206,6 +206,14 @@ def test_values_go_down_the_rows_there_are(settings):
     assert variables(settings) == ["paint", "light"]
 
 
+def test_a_list_is_typed_between_commas_or_semicolons(empty):
+    bpy.ops.rtb.fill_list(variable="light", values="D65, 300:1 800:2 , A")
+    assert column(empty, "light") == ["D65", "300:1 800:2", "A"]
+    bpy.ops.rtb.fill_list(variable="light", values="1,5; 2", how="ADD")
+    assert column(empty, "light")[3:] == ["1,5", "2"]
+    assert "there are no values" in sentence(bpy.ops.rtb.fill_list, variable="light", values=" , ")
+
+
 def test_a_grid_of_several_variables_is_filled_in_at_once(empty):
     bpy.ops.rtb.fill_grid(values="paint = 0.2, 0.5; light = D65, A")
     assert [row[1:] for row in table(empty)] == [("0.2", "D65"), ("0.2", "A"), ("0.5", "D65"), ("0.5", "A")]

@@ -18,8 +18,13 @@ def test_what_a_spreadsheet_copies_is_read_cell_by_cell():
 
 @pytest.mark.parametrize("separator", ["\t", ";", ","])
 def test_cells_may_hold_the_separator_and_quotes(separator):
+    said = 'one two "three"' if separator == "\t" else f'one{separator}two "three"'
     rows = [["name", "said"], ["a", f'one{separator}two "three"'], ["b", ""]]
-    assert parse_rows(format_rows(rows, separator)) == rows
+    assert parse_rows(format_rows(rows, separator)) == [rows[0], ["a", said], rows[2]]
+
+
+def test_lines_within_a_cell_become_one():
+    assert parse_rows('a\tb\n"two\r\n lines"\t3\n') == [["a", "b"], ["two lines", "3"]]
 
 
 @given(st.lists(st.lists(CELL, min_size=2, max_size=2), min_size=1))
