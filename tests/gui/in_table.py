@@ -29,7 +29,11 @@ def looks(driver: Driver, folder: Path):
     yield from dialog(driver, bpy.ops.rtb.fill_random, "conditions-random")
     yield from dialog(driver, partial(bpy.ops.wm.call_menu, name="RTB_MT_conditions"), "conditions-menu")
     yield from dialog(driver, partial(bpy.ops.wm.call_menu, name="RTB_MT_spectrum"), "spectrum-menu")
+    yield from dialog(driver, partial(bpy.ops.wm.call_menu, name="RTB_MT_variable"), "conditions-variable")
+    yield from dialog(driver, bpy.ops.rtb.fill_pairs, "conditions-pairs")
+    yield from small_pictures(driver)
     yield from scroll_many_rows(driver)
+    yield from read_in_steps(driver)
 
 
 def look_at_spectra(driver: Driver):
@@ -70,7 +74,7 @@ def vary_by_click(driver: Driver):
         yield 0.3
     driver.report["searched"] = material.rtb.reflectance
     yield from driver.find("rtb.reflectance", "PROPERTIES", "WINDOW", down=262)
-    yield from driver.choose_last_entry(*driver.place, "vary-menu")
+    yield from driver.choose_last_entry(driver.x, driver.y, "vary-menu")
     yield 0.8
     driver.photograph("varied")
     settings = bpy.context.scene.rtb
@@ -117,6 +121,75 @@ def scroll_many_rows(driver: Driver):
     }
     driver.report["a draw"] = (sum(panel) + sum(items)) / len(panel)
     driver.photograph("conditions-many")
+    states, scene = extension("operators.row_states"), bpy.context.scene
+    states.begin(scene)
+    for number, row in enumerate(scene.rtb.conditions):
+        states.take(states.row_name(scene, row, number), "done")
+    panel.clear()
+    items.clear()
+    for number in range(0, MANY, 50):
+        scene.rtb.active_condition = number
+        region.tag_redraw()
+        yield 0.05
+    driver.report["a draw with states"] = (sum(panel) + sum(items)) / len(panel)
+
+
+def small_pictures(driver: Driver):
+    """Render six rows, look at their small pictures, change a cell, move the cube."""
+    running, shown = extension("operators.running"), extension("operators.thumbnails")
+    with bpy.context.temp_override(window=driver.window):
+        bpy.ops.rtb.render_recipe()
+    while running.batch is not None:
+        yield 0.1
+    for _ in range(50):
+        yield 0.1
+        if sum(pair[0] > 0 for pair in shown._icons.values()) == 6:
+            break
+    scene = bpy.context.scene
+    scene.rtb.conditions[1].cells[0].value = "D50"
+    yield from driver.scroll("VIEW_3D", "UI", 20)
+    driver.photograph("conditions-pictures")
+    driver.report["pictures"] = [pair[0] > 0 for pair in shown._icons.values()]
+    driver.report["states"] = [states_of(scene)]
+    bpy.data.objects["Cube"].location[0] = 0.1
+    yield 0.4
+    driver.report["states"].append(states_of(scene))
+    driver.photograph("conditions-unchecked")
+    bpy.data.objects["Cube"].location[0] = 0.0
+    yield from driver.scroll("VIEW_3D", "UI", -60)
+
+
+def states_of(scene) -> list[str]:
+    states = extension("operators.row_states")
+    return [states.state(scene, row, number) for number, row in enumerate(scene.rtb.conditions)]
+
+
+def read_in_steps(driver: Driver):
+    """Press Render Recipe with many rows that set a property: keys change nothing meanwhile, Esc leaves it."""
+    scene, reading = bpy.context.scene, extension("operators.reading")
+    scene.rtb.set_conditions([], [])
+    bpy.ops.rtb.vary_property(home="objects", thing="Light", path="location", index=2, variable="height")
+    bpy.ops.rtb.fill_range(variable="height", first=3, last=9, count=400)
+    height = bpy.data.objects["Light"].location[2]
+    yield 0.5
+    turns = measured(reading.Reading, "turn")
+    yield from driver.find("rtb.render_recipe", "VIEW_3D", "UI", down=112)
+    yield from driver.click(driver.x, driver.y)
+    while reading.now is None or not reading.now.share:
+        yield 0.1
+    yield 0.5
+    driver.photograph("conditions-reading")
+    share = reading.now.share
+    yield from driver.press("X", "VIEW_3D")
+    yield from driver.press("ESC", "VIEW_3D")
+    yield 0.5
+    driver.report["reading"] = {
+        "share": share,
+        "left": reading.now is None and extension("operators.running").batch is None,
+        "height": bpy.data.objects["Light"].location[2] - height,
+        "objects": len(bpy.data.objects),
+        "turn": sorted(turns)[len(turns) // 2],
+    }
 
 
 if __name__ == "__main__":
