@@ -6,7 +6,7 @@ This module is imported only by what renders with Mitsuba, after its variant is 
 
 from __future__ import annotations
 
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Callable, Iterable, Mapping, Sequence
 from dataclasses import replace
 from typing import Any
 from xml.etree import ElementTree as Xml
@@ -27,6 +27,7 @@ from .native import Native
 from .object_numbers import by_number, numbers_of
 from .passes import Picture, render_passes, sums_of, take
 from .tables import Tables
+from .xml.called import MATERIALS, OBJECTS
 
 # Directions that tell how much of the light from the camera a surface would scatter.
 _DIRECTIONS = 256
@@ -50,12 +51,12 @@ def render_layers(
     lit = {"direct", "indirect"} & set(names)
     by_bounce = _by_bounce(loaded, tables, native, lit, options, report) if lit else {}
     traced |= {name: by_bounce[name] for name in lit}
-    numbered = {"object": tuple(loaded.shapes), "material": tables.materials}
+    numbered = {"object": native.names(OBJECTS), "material": native.names(MATERIALS)}
     spectral = lit or "albedo" in names
     return Layers(
         {name: traced[name] for name in names},
         native.bands if spectral else None,
-        {name: numbered[name] for name in numbered if name in names},
+        {name: tuple(numbered[name].values()) for name in numbered if name in names},
     )
 
 
@@ -107,17 +108,14 @@ def _uv(seen: _Seen) -> NDArray:
 
 
 def _object(seen: _Seen) -> NDArray:
-    ranks = {name: rank for rank, name in enumerate(seen.loaded.shapes, start=1)}
-    known = _marks(seen.loaded.shapes, ranks)
+    known = _marks(seen.loaded.shapes, _ranks(seen.native.names(OBJECTS)))
     return seen.plane(lambda ray, si: [_marked(known, si)])
 
 
 def _material(seen: _Seen) -> NDArray:
-    def numbers(ray: Any, si: Any) -> list[Any]:
-        met = si.is_valid()
-        return [dr.select(met, seen.tables.material_row(si.bsdf(), met) + 1, 0)]
-
-    return seen.plane(numbers)
+    pointers = {id: mi.BSDFPtr(material) for id, material in seen.loaded.materials.items()}
+    known = by_number(pointers, _ranks(seen.native.names(MATERIALS)))
+    return seen.plane(lambda ray, si: [dr.gather(mi.UInt32, known, numbers_of(si.bsdf()), si.is_valid())])
 
 
 # Layers that a single ray tells.
@@ -128,6 +126,10 @@ _LAYERS: Mapping[str, Callable[[_Seen], NDArray]] = {
     "object": _object,
     "material": _material,
 }
+
+
+def _ranks(ids: Iterable[str]) -> dict[str, int]:
+    return {id: rank for rank, id in enumerate(ids, start=1)}
 
 
 def _marks(shapes: Mapping[str, Any], marks: Mapping[str, int]) -> Any:

@@ -14,6 +14,7 @@ from ...errors import RenderingError
 from ...scene.render_scene import Crop
 from ...spectra import BandKind, Bands
 from ..filters import FILTERS
+from .xml.called import names_in_order
 from .xml.spectrum import properties
 
 
@@ -59,6 +60,10 @@ class Native:
     def shift(self) -> tuple[float, float]:
         """How far the view through a lens is shifted, to the right and down over the picture's size."""
         return float(self.defaults.get("shift_x", 0.0)), float(self.defaults.get("shift_y", 0.0))
+
+    def names(self, kind: str) -> dict[str, str]:
+        """Return what the scene calls its objects or materials, by their ids here, in its own order."""
+        return names_in_order(self.defaults, kind)
 
     @property
     def has_lens(self) -> bool:

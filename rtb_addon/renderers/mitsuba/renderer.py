@@ -32,7 +32,7 @@ class MitsubaRenderer:
     """Mitsuba 3: our own paths where LLVM works, its stock spectral film where it does not."""
 
     name = "mitsuba"
-    translation = 2
+    translation = 3
 
     def version(self) -> Installed:
         """Return Mitsuba's version, or None and why it is missing."""

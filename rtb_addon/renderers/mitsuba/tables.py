@@ -39,14 +39,12 @@ class Tables:
     pictures : those of the scene's lobes
     metals : most lobes of metals that a material has; they are its first
     constants : whether a material has a part that no spectrum multiplies
-    materials : ids of the materials, in the order of their rows
     all_bands : whether materials are asked for every band, not for lobes
     parts : how many parts a band has, of which each path takes one (see band_parts.py)
     """
 
     def __init__(self, loaded: LoadedScene, source: OneHotScene, bands: Bands, kind: BandKind) -> None:
         self.padded_bands = padded(len(bands))
-        self.materials = tuple(source.materials)
         self.parts, self._part = parts_of(kind), None
         self.lobes, self.metals = source.lobes, source.metals
         self.constants = any(lobe.constant for lobes in source.materials.values() for lobe in lobes)

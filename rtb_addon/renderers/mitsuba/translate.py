@@ -20,6 +20,7 @@ from ...scene.render_scene import Integrator, Mesh, RenderScene, Shape
 from ..interface import Extras
 from ..native_lines import scene_with
 from ..ply import write_mesh
+from .xml.called import called
 from .xml.camera import matrix, sensor
 from .xml.environment import environment
 from .xml.film import band_defaults, film
@@ -60,6 +61,7 @@ def scene_xml(scene: RenderScene, folder: Path) -> Xml.Element:
         root.extend(light(lamp, names, span))
     if scene.environment is not None:
         root.extend(environment(scene.environment, names, span, folder))
+    root.extend(called(scene, names))
     return root
 
 

@@ -29,6 +29,10 @@ class Names:
         self._given[kind, name] = candidate
         return candidate
 
+    def of_once(self, kind: str, name: str) -> str:
+        """Return the id that a thing was given, or a new one for a thing that nothing stands for."""
+        return self._given.get((kind, name)) or self.of(kind, name)
+
     def known(self, kind: str, name: str, asker: str) -> str:
         """Return the id that a thing was given, for something that refers to it."""
         try:
