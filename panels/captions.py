@@ -40,7 +40,7 @@ def _seen_tiles(region, narrowest: float, lowest: float) -> Iterator[tuple[str, 
 
 def _amiss(scene, names) -> Iterator[tuple[str, str]]:
     """Yield which of some conditions are not as they should be, where the picture is of a scene's recipe."""
-    if not viewing.shows_recipe(scene):
+    if not names or not viewing.shows_recipe(scene):
         return
     for number, row in enumerate(scene.rtb.conditions):
         if (name := row_states.row_name(scene, row, number)) in names:

@@ -52,41 +52,52 @@ class KeptCubes:
 
     def __init__(self) -> None:
         self._cubes: dict[Path, tuple[int, SpectralImage]] = {}
-        self._parts: dict[tuple, Part] = {}
-        self._brightest: dict[tuple[Path, int], float] = {}
+        self._bytes = 0
+        self._way: tuple[View, int] | None = None  # in which the parts are seen
+        self._parts: dict[Source, tuple[tuple[int, ...], Part]] = {}
+        self._brightest: dict[Path, tuple[int, float]] = {}
 
     def cube(self, file: Path) -> SpectralImage:
         """Return a cube; a file that is not there yet raises."""
         if not (stamp := _stamp(file)):
             raise RecipeError(f"{file.stem} is not rendered yet, press Render Recipe")
-        known = self._cubes.pop(file, None)
+        known = self._forget(file)
         if known is None or known[0] != stamp:
             known = stamp, SpectralImage.load(file)
         self._cubes[file] = known
-        while len(self._cubes) > 1 and sum(cube.radiance.nbytes for _, cube in self._cubes.values()) > MEMORY:
-            del self._cubes[next(iter(self._cubes))]
+        self._bytes += known[1].radiance.nbytes
+        while len(self._cubes) > 1 and self._bytes > MEMORY:
+            self._forget(next(iter(self._cubes)))
         return known[1]
+
+    def _forget(self, file: Path) -> tuple[int, SpectralImage] | None:
+        known = self._cubes.pop(file, None)
+        self._bytes -= 0 if known is None else known[1].radiance.nbytes
+        return known
 
     def brightest(self, file: Path) -> float:
         """Return the luminance of a cube's brightest pixel [cd m-2]."""
-        cube = self.cube(file)
-        key = file, self._cubes[file][0]
-        if key not in self._brightest:
-            self._brightest[key] = brightest(cube)
-        return self._brightest[key]
+        cube, stamp = self.cube(file), self._cubes[file][0]
+        if self._brightest.get(file, (0, 0.0))[0] != stamp:
+            self._brightest[file] = stamp, brightest(cube)
+        return self._brightest[file][1]
 
     def part(self, source: Source, view: View, by: int) -> Part:
         """Return what is to be seen of a cube, of so many pixels across and down their mean."""
-        key = by, replace(view, full=None), source, source.stamp
-        if key not in self._parts:
-            for old in [each for each in self._parts if each[:2] != key[:2] or each[2] == source]:
-                del self._parts[old]
-            cube = self.cube(source.file)
-            other = None if source.other is None else self.cube(source.other)
-            error = None if source.layers is None else _standard_error(source)
-            height, width, _ = cube.radiance.shape
-            self._parts[key] = Part(reduced(view.of(cube, other, error), by), (height, width))
-        return self._parts[key]
+        if self._way != (way := (replace(view, full=None), by)):
+            self._way = way
+            self._parts.clear()
+        stamp = source.stamp
+        if source not in self._parts or self._parts[source][0] != stamp:
+            self._parts[source] = stamp, self._seen(source, view, by)
+        return self._parts[source][1]
+
+    def _seen(self, source: Source, view: View, by: int) -> Part:
+        cube = self.cube(source.file)
+        other = None if source.other is None else self.cube(source.other)
+        error = None if source.layers is None else _standard_error(source)
+        height, width, _ = cube.radiance.shape
+        return Part(reduced(view.of(cube, other, error), by), (height, width))
 
 
 def _standard_error(source: Source) -> np.ndarray:

@@ -52,8 +52,9 @@ def draw_look(look: Look, kept: KeptCubes) -> dict[str, Any]:
     """Draw a picture into its file, and return what is where in it in words that JSON can write."""
     view = View(**look.view)
     recipe = Recipe.load(look.folder).overridden(renderer=look.renderer or None)
-    names = [look.condition] if look.condition else [each.name for each in recipe.conditions]
-    sources = {name: _source(recipe, name, view, look.other) for name in names}
+    conditions = [_condition(recipe, look.condition)] if look.condition else list(recipe.conditions)
+    names = [each.name for each in conditions]
+    sources = {each.name: _source(recipe, each, view, look.other) for each in conditions}
     # The newest one tells what size all have: what was rendered before in another one is out of date.
     first = kept.cube(_newest([source.file for source in sources.values()]))
     height, width, _ = first.radiance.shape
@@ -88,9 +89,8 @@ def _condition(recipe: Recipe, name: str) -> Condition:
     return condition
 
 
-def _source(recipe: Recipe, name: str, view: View, other: str) -> Source:
+def _source(recipe: Recipe, condition: Condition, view: View, other: str) -> Source:
     """Return the files that a view of a condition needs."""
-    condition = _condition(recipe, name)
     return Source(
         recipe.rendering_file(condition),
         file_of(recipe, other) if view.kind == "difference" and other else None,

@@ -11,6 +11,7 @@ from PIL import Image
 from rtb_addon.background import EventStream, close_input, send, start_child
 from rtb_addon.colorimetry import xyz
 from rtb_addon.errors import RecipeError
+from rtb_addon.kept_cubes import KeptCubes
 from rtb_addon.layers import Layers
 from rtb_addon.montage import make_montage
 from rtb_addon.recipe import Recipe
@@ -243,6 +244,20 @@ def test_small_pictures_of_what_is_rendered_come_from_the_lowest_row_up(recipe):
     assert sorted(pictures) == sorted({*NAMES} - {"blue"})
     came = np.frombuffer(base64.b64decode(pictures["red"]), np.uint8).reshape(8, 8, 4)
     np.testing.assert_array_equal(came[::-1], thumbnail(cube(0), 8))
+
+
+def test_no_more_cubes_are_kept_than_memory_is_given(recipe, monkeypatch):
+    size = cube(0).radiance.nbytes
+    monkeypatch.setattr("rtb_addon.kept_cubes.MEMORY", 2 * size)
+    kept = KeptCubes()
+    files = [recipe.rendering_file(recipe.conditions[name]) for name in ("red", "green", "grey")]
+    first = [kept.cube(file) for file in files]
+    assert kept.cube(files[2]) is first[2]
+    assert kept.cube(files[1]) is first[1]
+    again = kept.cube(files[0])  # the one that was looked at longest ago had to go
+    assert again is not first[0]
+    assert kept.cube(files[1]) is first[1]
+    assert kept.cube(files[2]) is not first[2]
 
 
 def test_a_developed_cube_is_its_colours_from_the_lowest_row_up(recipe, tmp_path):
