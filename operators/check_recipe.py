@@ -28,7 +28,9 @@ class RTB_OT_check_recipe(ReadingVerb, bpy.types.Operator):
     def refused(self, context, error):
         problems = scene_problems(context)
         findings.clear()
-        told = any(each in str(error) or str(error) in each for each in problems)
+        # Whoever reads the scene stops at the first problem, and says that it cannot be written.
+        said = str(error).replace(" cannot be written: ", ": ")
+        told = any(each in said or said in each for each in problems)
         findings.note([*problems, *([] if told else [str(error)])])
         self.report({"WARNING"}, _counted(len(findings.errors)))
         return {"FINISHED"}

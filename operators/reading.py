@@ -11,7 +11,10 @@ import threading
 import time
 from pathlib import Path
 
+import bpy
+
 from ..rtb_addon.blender import read_recipe
+from ..rtb_addon.blender.folders import is_unsaved
 from ..rtb_addon.blender.redrawing import redraw_panels
 from ..rtb_addon.errors import RecipeError
 from . import findings
@@ -88,6 +91,10 @@ class ReadingVerb:
 
     def invoke(self, context, event):
         global now
+        if not self.folder and is_unsaved(context.scene):
+            self.report({"INFO"}, "Save the file first: its recipe goes beside it")
+            bpy.ops.wm.save_as_mainfile("INVOKE_DEFAULT")
+            return {"CANCELLED"}
         if len(context.scene.rtb.conditions) < 2:
             return self.execute(context)
         now = Reading(context.scene, self.folder)

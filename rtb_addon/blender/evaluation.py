@@ -28,8 +28,9 @@ def as_rendered(scene, read: Callable[[bpy.types.Depsgraph], _Found]) -> _Found:
     bpy.utils.register_class(engine)
     copy = scene.copy()
     try:
-        _render_little(copy)
-        bpy.ops.render.render(scene=copy.name, layer=_view_layer(scene).name)
+        layer = _view_layer(scene).name
+        _render_little(copy, layer)
+        bpy.ops.render.render(scene=copy.name, layer=layer)
     except RuntimeError as error:
         raise RecipeError(f"Blender cannot evaluate the scene {scene.name}: {_one_line(error)}") from error
     finally:
@@ -61,9 +62,9 @@ def _engine(read: Callable, found: list, errors: list) -> type:
     return LookingEngine
 
 
-def _render_little(copy) -> None:
+def _render_little(copy, layer: str) -> None:
     """Leave out what Blender does before and after an engine."""
-    render = copy.render
+    render, copy.view_layers[layer].use = copy.render, True
     render.engine = _ENGINE
     render.use_compositing = render.use_sequencer = render.use_multiview = False
     render.use_border = False

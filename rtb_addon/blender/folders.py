@@ -27,10 +27,33 @@ def safe_name(text: str) -> str:
 def recipe_folder(scene) -> Path:
     """Return the folder that a scene's recipe is written to."""
     name = recipe_name(scene)
-    said = _NAME.sub(lambda _: name, scene.rtb.folder.strip() or "//rtb/NAME/")
-    if said.startswith("//") and not bpy.data.filepath:
+    said = _NAME.sub(lambda _: name, _said(scene))
+    if is_unsaved(scene):
         raise RecipeError(f"the recipe's folder {said} is relative to the .blend file: save that first")
     return Path(bpy.path.abspath(said))
+
+
+def _said(scene) -> str:
+    return scene.rtb.folder.strip() or "//rtb/NAME/"
+
+
+def is_unsaved(scene) -> bool:
+    """Return whether the .blend file must be saved before it is known where a scene's recipe goes."""
+    return _said(scene).startswith("//") and not bpy.data.filepath
+
+
+def own_folder(scene) -> Path:
+    """Return the folder that a scene's recipe may be written to, where no other one of this file goes."""
+    folder = recipe_folder(scene)
+    for other in bpy.data.scenes:
+        if other == scene or other.library is not None or not len(other.rtb.conditions):
+            continue
+        if recipe_folder(other) == folder:
+            raise RecipeError(
+                f"the recipes of the scenes {scene.name} and {other.name} both go to {folder}, "
+                "give one of them another name"
+            )
+    return folder
 
 
 def written_folder(scene) -> Path:

@@ -5,7 +5,10 @@ from __future__ import annotations
 import math
 
 import bpy
-from bpy.props import (
+
+from .amounts import MEASURES
+from .material_words import TYPED
+from .overridable import (
     BoolProperty,
     EnumProperty,
     FloatProperty,
@@ -13,9 +16,6 @@ from bpy.props import (
     PointerProperty,
     StringProperty,
 )
-
-from .amounts import MEASURES
-from .material_words import TYPED
 
 EMISSIONS = (
     ("radiance", "Radiance", "The amount is a factor of a spectrum of radiance, in W / (sr m² nm)", 1),
@@ -96,5 +96,5 @@ class RTB_PG_object(bpy.types.PropertyGroup):
 
     emits: BoolProperty(name="Emits", description="Let this surface shine", default=False)
     spectrum: StringProperty(name="Spectrum", description=f"What it sends out: {TYPED}", default="D65")
-    emission: EnumProperty(name="Measured As", items=EMISSIONS, default="radiance")
+    emission: EnumProperty(name="Amount As", items=EMISSIONS, default="radiance")
     amount: FloatProperty(name="Amount", default=1.0, min=0.0)

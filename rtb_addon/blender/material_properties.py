@@ -3,14 +3,6 @@
 from __future__ import annotations
 
 import bpy
-from bpy.props import (
-    BoolProperty,
-    EnumProperty,
-    FloatProperty,
-    FloatVectorProperty,
-    PointerProperty,
-    StringProperty,
-)
 
 from ..scene.vocabulary import MATERIALS, Parameter
 from .material_words import (
@@ -23,6 +15,14 @@ from .material_words import (
     takes_texture,
     texture_of,
     words_of,
+)
+from .overridable import (
+    BoolProperty,
+    EnumProperty,
+    FloatProperty,
+    FloatVectorProperty,
+    PointerProperty,
+    StringProperty,
 )
 
 TEXTURES = (

@@ -222,7 +222,7 @@ def register() -> None:
     for cls in _CLASSES:
         bpy.utils.register_class(cls)
     for name, cls in _POINTERS:
-        getattr(bpy.types, name).rtb = PointerProperty(type=cls)
+        getattr(bpy.types, name).rtb = PointerProperty(type=cls, override={"LIBRARY_OVERRIDABLE"})
     if bpy.app.module:  # as a Python module, Blender hangs at its end while it knows classes of ours
         atexit.unregister(unregister)
         atexit.register(unregister)

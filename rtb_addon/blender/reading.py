@@ -20,7 +20,7 @@ from ..scene.differences import Told, told_apart
 from ..spectra import Spectrum, Unit
 from ..spectra.spoken import spectrum_from
 from .baked import PARENT_COLUMNS, Remodel, merged, parent_files
-from .folders import blend_folder, recipe_folder, recipe_name
+from .folders import blend_folder, own_folder, recipe_name
 from .migration import refuse_newer
 from .own_spectra import own_folders
 from .parent import Parent
@@ -210,8 +210,8 @@ def _provenance() -> dict[str, str]:
     return {"blender": bpy.app.version_string, **({"blend": blend} if blend else {})}
 
 
-def _folder(scene) -> Path | None:
+def _folder(scene) -> Path | RecipeError:
     try:
-        return recipe_folder(scene)
-    except RecipeError:
-        return None
+        return own_folder(scene)
+    except RecipeError as error:  # said by whoever wants to save it there
+        return error

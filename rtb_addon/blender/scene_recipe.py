@@ -23,7 +23,7 @@ class SceneRecipe:
     generated : how many of its lines are made from what the scene says elsewhere, the first ones
     resources : contents of files by their names below resources/
     report : what had to be assumed or is left out, a sentence each
-    folder : where it is saved unless said otherwise; None while an unsaved .blend file leaves that open
+    folder : where it is saved unless said otherwise, or why there is no such place
     """
 
     name: str
@@ -37,13 +37,13 @@ class SceneRecipe:
     resources: Mapping[str, bytes]
     provenance: Mapping[str, str]
     report: tuple[str, ...]
-    folder: Path | None
+    folder: Path | RecipeError
 
     def save(self, folder: Path | str | None = None) -> Path:
         """Write the recipe into a folder, by default its own, and return that."""
         chosen = Path(folder) if folder is not None else self.folder
-        if chosen is None:
-            raise RecipeError("the recipe's folder is relative to the .blend file: save that first")
+        if isinstance(chosen, RecipeError):
+            raise chosen
         write_recipe(
             chosen,
             self.name,
