@@ -47,6 +47,7 @@ from .select_variable import RTB_OT_select_variable
 from .set_variable_kind import RTB_OT_set_variable_kind
 from .show_condition import RTB_OT_show_condition
 from .show_montage import RTB_OT_show_montage
+from .spectra_folders import RTB_OT_add_spectra_folder, RTB_OT_remove_spectra_folder, RTB_PG_spectra_folder
 from .tell import RTB_OT_tell
 from .test_renderers import RTB_OT_test_renderers
 from .turn_page import RTB_OT_turn_page
@@ -123,6 +124,9 @@ CLASSES = (
     RTB_OT_fill_pairs,
     RTB_OT_test_renderers,
     RTB_OT_vary_property,
+    RTB_PG_spectra_folder,
+    RTB_OT_add_spectra_folder,
+    RTB_OT_remove_spectra_folder,
     RTB_AP_preferences,
     *image_editor.CLASSES,
 )

@@ -8,6 +8,7 @@ from ..rtb_addon.blender import renderer_choices
 from ..rtb_addon.blender.own_spectra import EXTENSION
 from . import renderers_found, use_library_spectrum
 from .preferred import preferences
+from .spectra_folders import RTB_PG_spectra_folder, draw_folders
 from .test_renderers import RTB_OT_test_renderers
 
 
@@ -32,6 +33,7 @@ class RTB_AP_preferences(bpy.types.AddonPreferences):
         subtype="DIR_PATH",
         update=lambda self, context: use_library_spectrum.forget(),
     )
+    spectra_folders: bpy.props.CollectionProperty(type=RTB_PG_spectra_folder)
     workers: bpy.props.IntProperty(
         name="Workers", description="Conditions rendered at once; 0: one for each core", min=0, soft_max=64
     )
@@ -53,6 +55,7 @@ class RTB_AP_preferences(bpy.types.AddonPreferences):
         layout.prop(self, "workers", text="Workers" if self.workers else "Workers (0: Each Core)")
         layout.prop(self, "spectra", placeholder="In Blender's User Folder")
         layout.prop(self, "renderers", placeholder="None")
+        draw_folders(layout.box(), self.spectra_folders)
         draw_renderers(layout.box())
 
 

@@ -11,12 +11,24 @@ from .spectrum_verbs import SpectrumVerb
 
 # What is offered to whom: kind -> Blender's items, which it reads where we keep them.
 _items: dict[str, list[tuple[str, str, str, int, int]]] = {}
+_own: dict[str, float] = {}  # when each of the user's own files that are offered was written [s]
 
 
 def forget() -> None:
     """Look for the library's names anew when they are next asked for."""
     _items.clear()
     curve_previews.forget_icons()
+
+
+def look_again() -> None:
+    """Forget the names where the user's own files are others than before."""
+    from ..rtb_addon.spectra.library import own_files  # brings numpy, which enabling need not wait for
+
+    now = {name: file.stat().st_mtime for name, file in own_files(own_folders()).items()}
+    if now != _own:
+        forget()
+        _own.clear()
+        _own.update(now)
 
 
 def _names(operator, context):
@@ -67,6 +79,7 @@ class RTB_OT_use_library_spectrum(SpectrumVerb, bpy.types.Operator):
     name: bpy.props.EnumProperty(name="Name", items=_names)
 
     def invoke(self, context, event):
+        look_again()
         context.window_manager.invoke_search_popup(self)
         return {"INTERFACE"}  # nothing has been done yet that could be undone
 

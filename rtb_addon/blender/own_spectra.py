@@ -12,19 +12,23 @@ EXTENSION = (__package__ or "").partition(".rtb_addon")[0]  # the name under whi
 
 
 def own_folders() -> list[Path]:
-    """Return the folders of the user's own spectra that are there."""
+    """Return the folders of the user's own spectra that are there, the one of imported spectra first."""
     addon = bpy.context.preferences.addons.get(EXTENSION)
-    chosen = getattr(addon.preferences, "spectra", "") if addon is not None else ""
-    folders = [Path(bpy.path.abspath(chosen))] if chosen else []
-    return [each for each in (*folders, *_kept()) if each.is_dir()]
+    further = [] if addon is None else [each.path for each in addon.preferences.spectra_folders]
+    chosen = [Path(bpy.path.abspath(each)) for each in (_preferred(), *further) if each]
+    return [each for each in (*chosen, *_kept()) if each.is_dir()]
 
 
 def folder_for_imports() -> Path:
     """Return the folder that imported spectra are kept in: the preferred one, else Blender's for us."""
-    addon = bpy.context.preferences.addons.get(EXTENSION)
-    if chosen := (getattr(addon.preferences, "spectra", "") if addon is not None else ""):
+    if chosen := _preferred():
         return Path(bpy.path.abspath(chosen))
     return Path(bpy.utils.extension_path_user(EXTENSION, path="spectra", create=True))
+
+
+def _preferred() -> str:
+    addon = bpy.context.preferences.addons.get(EXTENSION)
+    return "" if addon is None else addon.preferences.spectra
 
 
 def heard(text: str, unit=None):

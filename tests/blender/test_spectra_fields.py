@@ -233,6 +233,36 @@ def test_imported_spectra_are_found_in_the_library_and_mean_the_same_everywhere(
     assert read(bpy.context.scene).resources["Material.spd"] == (own / "paints/red.spd").read_bytes()
 
 
+def test_further_folders_are_searched_after_the_one_of_imports(own, tmp_path, extension):
+    from rtb_addon.spectra.library import own_files
+
+    offers = sys.modules[f"{extension}.operators.use_library_spectrum"]
+    folders = sys.modules[f"{extension}.rtb_addon.blender.own_spectra"].own_folders
+    lab, shared = tmp_path / "lab", tmp_path / "shared"
+    for folder, value in ((own, 0.1), (lab, 0.2), (shared, 0.3)):
+        folder.mkdir(exist_ok=True)
+        (folder / "wall.spd").write_text(f"400 {value}\n700 {value}\n")
+    (shared / "floor.spd").write_text("400 0.4\n700 0.4\n")
+    for folder in (lab, shared):
+        assert bpy.ops.rtb.add_spectra_folder(directory=str(folder)) == {"FINISHED"}
+    try:
+        assert folders()[:3] == [own, lab, shared]
+        found = own_files(folders())
+        assert (found["Own/wall"], found["Own/floor"]) == (own / "wall.spd", shared / "floor.spd")
+        offers.look_again()
+        names = [item[0] for item in offers._names(SimpleNamespace(field="LIGHT"), bpy.context)]
+        (lab / "door.spd").write_text("400 0.4\n700 0.4\n")
+        offers.look_again()
+        later = [item[0] for item in offers._names(SimpleNamespace(field="LIGHT"), bpy.context)]
+        assert set(later) - set(names) == {"Own/door"}
+        bpy.ops.rtb.remove_spectra_folder(index=0)
+        assert folders()[:2] == [own, shared]
+        assert "no folder 7" in sentence(bpy.ops.rtb.remove_spectra_folder, index=7)
+    finally:
+        bpy.context.preferences.addons[extension].preferences.spectra_folders.clear()
+        offers.forget()
+
+
 def test_the_toolboxs_files_are_dropped_on_the_window(own, extension):
     from scipy.io import savemat
 
