@@ -165,7 +165,7 @@ def states_of(scene) -> list[str]:
 
 
 def read_in_steps(driver: Driver):
-    """Press Render Recipe with many rows that set a property: keys change nothing meanwhile, Esc leaves it."""
+    """Press Render Recipe with many rows that set a property: keys change nothing, Esc leaves it."""
     scene, reading = bpy.context.scene, extension("operators.reading")
     scene.rtb.set_conditions([], [])
     bpy.ops.rtb.vary_property(home="objects", thing="Light", path="location", index=2, variable="height")

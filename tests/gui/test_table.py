@@ -11,6 +11,11 @@ PANELS = (
     "conditions-random",
     "conditions-menu",
     "conditions-many",
+    "conditions-variable",
+    "conditions-pairs",
+    "conditions-pictures",
+    "conditions-unchecked",
+    "conditions-reading",
     "spectrum-material",
     "spectrum-light",
     "spectrum-wrong",
@@ -40,7 +45,23 @@ def test_a_thousand_rows_scroll_smoothly(report):
     # Blender asks only for the rows that are seen: six, and at the edge one more.
     assert many["items"] <= 8 * many["draws"]
     assert report["a draw"] < 0.005
+    assert report["a draw with states"] < 0.005
 
 
 def test_a_thousand_rows_are_filled_in_at_once(report):
     assert report["filling"] < 1.0
+
+
+def test_rows_that_are_rendered_show_small_pictures(report):
+    assert report["pictures"] == [True] * 6
+    changed, moved = report["states"]
+    assert changed == ["done", "changed", *["done"] * 4]
+    assert moved == ["unchecked", "changed", *["unchecked"] * 4]
+
+
+def test_a_scene_is_read_condition_by_condition_and_esc_leaves_it_as_it_was(report):
+    reading = report["reading"]
+    assert 0 < reading["share"] < 1
+    assert reading["left"]
+    assert (reading["height"], reading["objects"]) == (0, 3)
+    assert reading["turn"] < 0.05
