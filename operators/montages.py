@@ -16,10 +16,18 @@ def load(file: Path, name: str) -> bpy.types.Image:
         image = bpy.data.images.load(str(file))
         image.name = name
         image[MARK] = True
-    elif Path(bpy.path.abspath(image.filepath)) != file:
-        image.filepath = str(file)
+    if image.filepath != (said := _said(file)):
+        image.filepath = said
     image.reload()
     return image
+
+
+def _said(file: Path) -> str:
+    """Return a file as the .blend names it, so that both can be moved together."""
+    try:
+        return bpy.path.relpath(str(file)) if bpy.data.filepath else str(file)
+    except ValueError:  # on another drive
+        return str(file)
 
 
 def find(name: str) -> bpy.types.Image | None:

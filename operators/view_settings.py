@@ -14,7 +14,7 @@ from bpy.props import (
     StringProperty,
 )
 
-from ..rtb_addon.blender.renderer_choices import RENDERERS
+from ..rtb_addon.blender.renderer_choices import choices
 from . import row_states, viewing
 
 KINDS = (
@@ -29,7 +29,8 @@ KINDS = (
     ),
     ("error", "Standard Error", "How uncertain each spectrum is, in false colours", 5),
 )
-_RECIPES = ("recipe", "The Recipe's", "Whatever the recipe is rendered by", 0)
+# Blender reads a list of choices where we keep it.
+_renderers = [("recipe", "The Recipe's", "Whatever the recipe is rendered by", 0)]
 
 
 def _changed(view, context) -> None:
@@ -42,6 +43,11 @@ def _scale_taken_over(view, context) -> None:
         setattr(view, view.scale_name, viewing.seen["full"])
     else:
         _changed(view, context)
+
+
+def _renderers_offered(view, context) -> list[tuple[str, str, str, int]]:
+    _renderers[1:] = choices(view, context)
+    return _renderers
 
 
 def _conditions(view, context, typed: str) -> list[str]:
@@ -105,7 +111,7 @@ class RTB_PG_view(bpy.types.PropertyGroup):
         precision=5,
         update=_changed,
     )
-    renderer: EnumProperty(name="Renderer", items=(_RECIPES, *RENDERERS), default="recipe", update=_changed)
+    renderer: EnumProperty(name="Renderer", items=_renderers_offered, default=0, update=_changed)
 
     @property
     def scale_name(self) -> str:

@@ -78,6 +78,7 @@ def test_a_view_that_is_set_changes_the_one_image_there_is(folder, window_manage
     assert grey[brightest] == 1
     assert [image.name for image in bpy.data.images if image.get("rtb_montage")] == ["cube"]
     assert not bpy.data.images["cube"].is_dirty
+    assert bpy.data.images["cube"].filepath == "//rtb/cube/images/view.tif"
 
 
 def test_what_cannot_be_shown_is_a_sentence_and_the_picture_stays(folder, window_manager, module):
