@@ -28,7 +28,7 @@ def note() -> None:
 @bpy.app.handlers.persistent
 def _evaluated(scene, depsgraph) -> None:
     """Count what Blender has evaluated anew, if it is more than a look."""
-    if any(_is_edit(each) for each in depsgraph.updates) and not own_changes.have_come():
+    if any(_is_edit(each) for each in depsgraph.updates) and not own_changes.come_now():
         note()
 
 

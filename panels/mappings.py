@@ -12,6 +12,7 @@ from ..operators.remove_mapping_line import RTB_OT_remove_mapping_line
 from ..rtb_addon.blender import mapping_sentences as words
 from .sentences import draw_sentence
 
+BUTTONS = 30  # by how much two small buttons shorten a sentence beside them [pixels at scale 1]
 EQUALS = "\N{NO-BREAK SPACE}="  # stays on the line of the last word
 
 
@@ -73,8 +74,8 @@ def draw_line(layout, line: words.Line, width: int) -> None:
     row = layout.row(align=True)
     row.alert = bool(line.missing)
     column = row.column(align=True)
-    draw_sentence(column, line.sentence, width - 60, "ERROR" if line.missing else line.icon)
-    draw_missing(column, line.missing, width - 60)
+    draw_sentence(column, line.sentence, width - BUTTONS, "ERROR" if line.missing else line.icon)
+    draw_missing(column, line.missing, width - BUTTONS)
     row.operator_context = "INVOKE_DEFAULT"
     row.operator(RTB_OT_edit_mapping_line.bl_idname, text="", icon="GREASEPENCIL").line = line.number
     row.operator(RTB_OT_remove_mapping_line.bl_idname, text="", icon="X").line = line.number

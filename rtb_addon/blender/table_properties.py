@@ -3,15 +3,7 @@
 from __future__ import annotations
 
 import bpy
-from bpy.props import (
-    CollectionProperty,
-    EnumProperty,
-    FloatProperty,
-    FloatVectorProperty,
-    IntProperty,
-    PointerProperty,
-    StringProperty,
-)
+from bpy import props
 
 _FILES = (".spd", ".csv", ".mat", ".txt")  # whose folders say where they lie
 KINDS = (
@@ -93,13 +85,13 @@ def in_digits(value: float) -> str:
 class RTB_PG_cell(bpy.types.PropertyGroup):
     """What one condition says for one variable: a text, of which there are other views."""
 
-    value: StringProperty(name="Value", description="Text of this cell", update=row_chosen)
-    number: FloatProperty(name="Value", description="Number of this cell", get=_number, set=_set_number)
-    colour: FloatVectorProperty(
+    value: props.StringProperty(name="Value", description="Text of this cell", update=row_chosen)
+    number: props.FloatProperty(name="Value", description="Number of this cell", get=_number, set=_set_number)
+    colour: props.FloatVectorProperty(
         name="Value", description="Colour of this cell", subtype="COLOR", min=0.0, max=1.0,
         get=_colour, set=_set_colour,
     )  # fmt: skip
-    short: StringProperty(
+    short: props.StringProperty(
         name="Value",
         description="Spectrum of this cell, without its chart's name; so is another one of that chart called",
         get=_short, set=_set_short,
@@ -109,26 +101,28 @@ class RTB_PG_cell(bpy.types.PropertyGroup):
 class RTB_PG_variable(bpy.types.PropertyGroup):
     """A column of the conditions; its name is what (name) stands for."""
 
-    kind: EnumProperty(name="Type", description="What its cells hold", items=KINDS, default="TEXT")
+    kind: props.EnumProperty(name="Type", description="What its cells hold", items=KINDS, default="TEXT")
 
 
 class RTB_PG_condition(bpy.types.PropertyGroup):
     """A row of the conditions; its name names its files. Cells are in the order of the variables."""
 
-    cells: CollectionProperty(type=RTB_PG_cell)
+    cells: props.CollectionProperty(type=RTB_PG_cell)
     # What a file that was saved tells of its rendering: name, cells and options then.
-    rendered: StringProperty(options={"HIDDEN"})
+    rendered: props.StringProperty(options={"HIDDEN"})
 
 
 class RTB_PG_mapping(bpy.types.PropertyGroup):
     """A property of something in the file that conditions set; its name is how sentences call it."""
 
-    thing: PointerProperty(type=bpy.types.ID, name="Thing", description="What has the property")
-    path: StringProperty(name="Property", description="Path of the property, as Blender's drivers write it")
-    index: IntProperty(
+    thing: props.PointerProperty(type=bpy.types.ID, name="Thing", description="What has the property")
+    path: props.StringProperty(
+        name="Property", description="Path of the property, as Blender's drivers write it"
+    )
+    index: props.IntProperty(
         name="Component", description="Of a vector, from 0; -1 for all of it", default=-1, min=-1
     )
-    value: StringProperty(
+    value: props.StringProperty(
         name="Value",
         description="What it is set to: (variable), or arithmetic such as 2 * (distance); angles in degrees",
         update=row_chosen,
@@ -138,13 +132,13 @@ class RTB_PG_mapping(bpy.types.PropertyGroup):
 class RTB_PG_kept(bpy.types.PropertyGroup):
     """What a property was before the preview of a condition, and what that has set it to."""
 
-    thing: PointerProperty(type=bpy.types.ID)
-    path: StringProperty()
-    index: IntProperty(default=-1)
-    was: StringProperty()
-    was_thing: PointerProperty(type=bpy.types.ID)
-    shown: StringProperty()
-    shown_thing: PointerProperty(type=bpy.types.ID)
+    thing: props.PointerProperty(type=bpy.types.ID)
+    path: props.StringProperty()
+    index: props.IntProperty(default=-1)
+    was: props.StringProperty()
+    was_thing: props.PointerProperty(type=bpy.types.ID)
+    shown: props.StringProperty()
+    shown_thing: props.PointerProperty(type=bpy.types.ID)
 
 
 CLASSES = (RTB_PG_cell, RTB_PG_variable, RTB_PG_condition, RTB_PG_mapping, RTB_PG_kept)
