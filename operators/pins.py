@@ -12,7 +12,7 @@ import bpy
 
 from ..rtb_addon.blender.folders import recipe_folder
 from ..rtb_addon.blender.redrawing import redraw_panels
-from . import montages, viewing
+from . import viewing
 
 if TYPE_CHECKING:
     from ..rtb_addon.probing import Difference, Probe
@@ -43,7 +43,7 @@ def hover(place: Place | None) -> None:
         hovered = None
     else:
         ask(bpy.context.scene, place, _hover, "hover")
-    redraw()
+    viewing.redraw()
 
 
 def ask(scene, place: Place, then: Callable[[Probe, str], None], kind: str = "probe") -> None:
@@ -79,7 +79,7 @@ def add(probe: Probe, folder: str, compared: bool) -> None:
     pin.folder, pin.words = folder, json.dumps(probe.to_words())
     window_manager.rtb_active_pin = len(pins) - 1
     redraw_panels()
-    redraw()
+    viewing.redraw()
 
 
 def is_seen(pin) -> bool:
@@ -136,20 +136,14 @@ def clear() -> None:
     under, hovered, sentence = None, None, ""
     bpy.context.window_manager.rtb_pins.clear()
     redraw_panels()
-    redraw()
-
-
-def redraw() -> None:
-    """Let the Image Editors that show renderings be drawn anew."""
-    if viewing.seen and (image := montages.find(viewing.seen["name"])) is not None:
-        montages.redraw(image)
+    viewing.redraw()
 
 
 def _hover(probe: Probe, folder: str) -> None:
     global hovered
     if under is not None:
         hovered = probe
-        redraw()
+        viewing.redraw()
 
 
 @bpy.app.handlers.persistent

@@ -2,7 +2,7 @@
 
 import bpy
 
-from . import pins
+from . import pins, viewing
 
 
 class RTB_OT_remove_pin(bpy.types.Operator):
@@ -27,5 +27,5 @@ class RTB_OT_remove_pin(bpy.types.Operator):
         window_manager.rtb_active_pin = max(
             min(window_manager.rtb_active_pin, len(window_manager.rtb_pins) - 1), 0
         )
-        pins.redraw()
+        viewing.redraw()
         return {"FINISHED"}

@@ -41,6 +41,7 @@ class Said(NamedTuple):
 
 
 _begun: dict[str, Said] = {}  # of the batch that is under way, or was the last one
+_before: dict[str, str] = {}  # how those were that are under way
 _said: dict[str, Said] = {}
 _states: dict[str, str] = {}
 _reasons: dict[str, str] = {}
@@ -65,26 +66,35 @@ def begin(scene, names: Iterable[str] = ()) -> None:
 def take(condition: str, kind: str, reason: str = "") -> None:
     """Take in what a batch says of a condition, and why it failed if it did."""
     global _count
-    if kind not in KINDS:
-        _states.pop(condition, None)
-        return
-    _states[condition], _reasons[condition] = KINDS[kind], reason
-    if condition in _begun:
-        _said[condition] = _begun[condition]
+    if KINDS.get(kind) == "running":
+        _before.setdefault(condition, _states.get(condition, ""))
+        _states[condition] = "running"
+    elif kind in KINDS:
+        _before.pop(condition, None)
+        _states[condition], _reasons[condition] = KINDS[kind], reason
+        if condition in _begun:
+            _said[condition] = _begun[condition]
+    else:
+        _as_before(condition)
     if kind == "done":
         _count += 1
         _versions[condition] = _count
 
 
 def end() -> None:
-    """Forget what was under way, for nothing is any more."""
-    for name in [name for name, state in _states.items() if state == "running"]:
-        del _states[name]
+    """Let what was under way be as it was, for nothing is any more."""
+    for name in list(_before):
+        _as_before(name)
+
+
+def _as_before(condition: str) -> None:
+    """Let a condition be as it was before a batch that has not finished it."""
+    _states[condition] = _before.pop(condition, _states.get(condition, ""))
 
 
 def clear() -> None:
     """Forget everything."""
-    for known in (_begun, _said, _states, _reasons, _versions):
+    for known in (_begun, _before, _said, _states, _reasons, _versions):
         known.clear()
 
 
@@ -141,7 +151,8 @@ def keep(scenes) -> None:
             continue
         for number, row in enumerate(scene.rtb.conditions):
             name = row_name(scene, row, number)
-            said = _said.get(name) if _states.get(name) == "done" else None
+            state = _before.get(name, _states.get(name))
+            said = _said.get(name) if state == "done" else None
             row.rendered = "" if said is None else json.dumps([name, said.cells, said.options])
 
 

@@ -60,12 +60,20 @@ def follow(batch) -> None:
         if before is None and batch.total > 1:
             bpy.context.window_manager.rtb_view.condition = ""
         show(batch.folder, open_editor=before is None)
+    redraw()
 
 
 def followed_to_the_end() -> None:
     """The next batch is another one."""
     global _followed
     _followed = None
+    redraw()
+
+
+def redraw() -> None:
+    """Let the Image Editors that show renderings be drawn anew, for what is written over them is another."""
+    if seen and (image := montages.find(seen["name"])) is not None:
+        montages.redraw(image)
 
 
 def refresh(scene) -> None:

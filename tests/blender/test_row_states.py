@@ -39,6 +39,22 @@ def test_each_row_shows_how_the_last_batch_has_left_it(settings, extension, stat
     assert shown(states) == ["done", "", "failed"]
 
 
+@pytest.mark.parametrize("how", ["cancelled", "the end"])
+def test_a_row_whose_rendering_was_broken_off_is_what_it_was(settings, states, how):
+    all_done(states)
+    settings.samples += 1
+    states.begin(bpy.context.scene)
+    for name in ("a", "b"):
+        states.take(name, "started")
+    states.take("b", "progress")
+    assert shown(states) == ["running", "running", "changed"]
+    for name in ("a", "b"):
+        if how == "cancelled":
+            states.take(name, "cancelled")
+    states.end()
+    assert shown(states) == ["changed"] * 3
+
+
 def test_only_the_row_whose_cell_is_changed_is_no_longer_done(settings, states):
     settings.conditions[2].name = ""
     states.begin(bpy.context.scene)
