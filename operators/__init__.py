@@ -52,6 +52,7 @@ from .tell import RTB_OT_tell
 from .test_renderers import RTB_OT_test_renderers
 from .turn_page import RTB_OT_turn_page
 from .use_colour import RTB_OT_use_colour
+from .use_curve import RTB_OT_use_curve
 from .use_flat_spectrum import RTB_OT_use_flat_spectrum
 from .use_library_spectrum import RTB_OT_use_library_spectrum
 from .use_metal import RTB_OT_use_metal
@@ -83,6 +84,7 @@ CLASSES = (
     RTB_OT_import_spectra,
     RTB_FH_spectra,
     RTB_OT_use_table,
+    RTB_OT_use_curve,
     RTB_OT_use_variable,
     RTB_OT_vary_in_recipe,
     RTB_OT_add_condition,

@@ -1,4 +1,4 @@
-"""Further folders of the user's own spectra: a list in the preferences, as asset libraries are for Blender."""
+"""Further folders of the user's own spectra: a list in the preferences, as Blender has of asset libraries."""
 
 import bpy
 

@@ -4,6 +4,7 @@ import bpy
 
 from ..operators.import_spectra import RTB_OT_import_spectra
 from ..operators.use_colour import RTB_OT_use_colour
+from ..operators.use_curve import RTB_OT_use_curve
 from ..operators.use_flat_spectrum import RTB_OT_use_flat_spectrum
 from ..operators.use_library_spectrum import RTB_OT_use_library_spectrum
 from ..operators.use_spectrum_file import RTB_OT_use_spectrum_file
@@ -13,13 +14,14 @@ from ..operators.use_variable import RTB_OT_use_variable
 from ..operators.vary_in_recipe import RTB_OT_vary_in_recipe
 from ..rtb_addon.blender.fields import FIELDS, field_of
 
-INDICES = (RTB_OT_use_flat_spectrum, RTB_OT_use_table)
+INDICES = (RTB_OT_use_flat_spectrum, RTB_OT_use_table, RTB_OT_use_curve)
 ANY = (
     RTB_OT_use_flat_spectrum,
     RTB_OT_use_daylight,
     RTB_OT_use_blackbody,
     RTB_OT_use_colour,
     RTB_OT_use_table,
+    RTB_OT_use_curve,
 )
 
 

@@ -321,3 +321,18 @@ def test_swatches_are_shown_under_the_chosen_light(material, previews, library):
     assert colours[0][0] == pytest.approx(colours[0][2], abs=0.02), "white in daylight"
     assert colours[1][0] > 1.5 * colours[1][2], "orange in the light of a bulb"
     assert colours[2][3] == 0, "none for what has no colour"
+
+
+def test_a_curve_goes_through_what_the_field_says_and_is_written_as_pairs(material, extension, library):
+    curve = sys.modules[f"{extension}.operators.use_curve"]
+    mapping = bpy.data.node_groups.new("Drawn", "ShaderNodeTree").nodes.new("ShaderNodeFloatCurve").mapping
+    curve.lay(mapping, [0, 0.25, 0.5, 1], [0.2, 0.4, 0.4, 1])
+    drawn = library("spectra.spoken").spectrum_from(curve.drawn(mapping, 0.5))
+    assert [*drawn.wavelengths] == [*range(380, 781, 10)]
+    assert drawn.at([380, 480, 530, 580, 780]) == pytest.approx([0.1, 0.2, 0.2, 0.2, 0.5], abs=1e-3)
+
+
+def test_what_was_drawn_is_written_again_by_a_script(material):
+    assert bpy.ops.rtb.use_curve(field="REFLECTANCE", pairs="400:0.2 700:0.8") == {"FINISHED"}
+    assert material.reflectance == "400:0.2 700:0.8"
+    assert "nothing has been drawn" in sentence(bpy.ops.rtb.use_curve, field="REFLECTANCE", pairs="")

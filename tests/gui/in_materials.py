@@ -10,6 +10,7 @@ sys.path.insert(0, str(Path(__file__).parent))  # Blender does not look beside i
 from driver import Driver
 from scene import extension, measured
 
+POINT = -271, -127  # the curve's at 455 nm, from where the pointer was when its dialog was opened [pixels]
 HEADERS = (335, 314)  # of the sub-panels of a blend, from the top [pixels]
 
 
@@ -61,6 +62,7 @@ def materials(driver: Driver, folder: Path):
     yield from search(driver)
     yield from table(driver)
     yield from flat(driver)
+    yield from curve(driver)
     driver.report["a draw"] = sorted(drawn)[len(drawn) // 2]
 
 
@@ -108,6 +110,24 @@ def flat(driver: Driver):
     yield from driver.key("RET")
     yield 0.5
     driver.report["flat"] = settings.reflectance
+
+
+def curve(driver: Driver):
+    """Open a spectrum as a curve, drag one of its points up, and use what was drawn."""
+    settings, viewport = bpy.data.materials["Material"].rtb, driver.area("VIEW_3D")
+    settings.reflectance = "BabelColor Average/blue"
+    x, y = viewport.x + 500, viewport.y + 400
+    yield from driver.move(x, y)
+    region = driver.region("PROPERTIES", "WINDOW")
+    with bpy.context.temp_override(window=driver.window, area=driver.area("PROPERTIES"), region=region):
+        bpy.ops.rtb.use_curve("INVOKE_DEFAULT", field="REFLECTANCE")
+    yield 0.8
+    yield from driver.drag((x + POINT[0], y + POINT[1]), (x + POINT[0], y + POINT[1] + 60))
+    yield 0.5
+    driver.photograph("spectrum-curve")
+    yield from driver.key("RET")
+    yield 0.5
+    driver.report["drawn"] = [settings.reflectance, len(bpy.data.node_groups)]
 
 
 def search(driver: Driver):

@@ -11,6 +11,7 @@ PANELS = (
     "library-search",
     "spectrum-table",
     "spectrum-flat",
+    "spectrum-curve",
     "light-watts",
     "light-lux",
     "world-constant",
@@ -31,6 +32,14 @@ def test_the_default_material_is_taken_over_as_matte(report):
 
 def test_a_number_typed_in_a_dialog_is_used(report):
     assert report["flat"] == "1"
+
+
+def test_a_point_of_a_curve_is_dragged_up(report):
+    drawn, left = report["drawn"]
+    values = dict(pair.split(":") for pair in drawn.split())
+    assert float(values["450"]) > 0.4, "it was 0.31"
+    assert float(values["580"]) == 0.038, "points far away stay"
+    assert left == 0
 
 
 def test_a_panel_of_many_spectra_draws_at_once(report):
