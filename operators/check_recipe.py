@@ -6,8 +6,8 @@ import json
 
 import bpy
 
-from . import checking, findings
-from .child_verb import ChildVerb, Ended
+from . import findings
+from .child_verb import ChildVerb, Ended, is_under_way
 from .reading import ReadingVerb
 from .tell import tell
 
@@ -21,9 +21,9 @@ class RTB_OT_check_recipe(ReadingVerb, bpy.types.Operator):
 
     @classmethod
     def poll(cls, context):
-        if checking.child is not None:
+        if busy := is_under_way("check"):
             cls.poll_message_set("The recipe is being checked")
-        return checking.child is None
+        return not busy
 
     def refused(self, context, error):
         problems = scene_problems(context)
@@ -37,9 +37,8 @@ class RTB_OT_check_recipe(ReadingVerb, bpy.types.Operator):
 
     def go_on(self, context, folder):
         findings.note(scene_problems(context))
-        checking.child = ChildVerb(["check", str(folder), "--json"], _take)
+        ChildVerb(["check", str(folder), "--json"], _take, of_file=True)
         if bpy.app.background:
-            checking.child = None
             self.report({"INFO"}, _counted(len(findings.errors)))
         return {"FINISHED"}
 
@@ -53,7 +52,6 @@ def scene_problems(context) -> list[str]:
 
 def _take(ended: Ended) -> None:
     """Take in what the child has found."""
-    checking.child = None
     found = [json.loads(line) for line in ended.lines if line.startswith("{")]
     findings.note(
         [each["sentence"] for each in found if each["problem"]]

@@ -43,7 +43,7 @@ class RTB_OT_compare_renderers(bpy.types.Operator):
         ended: list[Ended] = []
         picture = comparison_picture(folder, context.scene, self.first, self.second)
         child = ["compare", str(folder), "--renderers", f"{self.first},{self.second}", "--json"]
-        ChildVerb(child, ended.append if bpy.app.background else partial(_tell, picture))
+        ChildVerb(child, ended.append if bpy.app.background else partial(_tell, picture), of_file=True)
         if ended and ended[0].status:
             return findings.refuse(self, RecipeError(ended[0].last_words("comparing")))
         if ended:

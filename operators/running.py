@@ -12,7 +12,7 @@ from typing import TYPE_CHECKING
 
 import bpy
 
-from . import checking, findings, montages, row_states, viewing
+from . import child_verb, findings, montages, row_states, viewing
 from .tell import tell
 
 if TYPE_CHECKING:
@@ -103,7 +103,7 @@ def _redraw() -> None:
 @bpy.app.handlers.persistent
 def _before_loading(*_) -> None:
     stop()
-    checking.stop()
+    child_verb.stop_all(only_of_file=True)
     findings.clear()
     row_states.clear()
 
@@ -116,7 +116,7 @@ def register() -> None:
 def unregister() -> None:
     """Leave no child and no timer behind."""
     stop()
-    checking.stop()
+    child_verb.stop_all()
     findings.clear()
     row_states.clear()
     bpy.app.handlers.load_pre.remove(_before_loading)

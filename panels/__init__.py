@@ -24,6 +24,7 @@ _register, _unregister = register_classes_factory(
         RTB_MT_designs,
         RTB_MT_variable,
         RTB_MT_conditions,
+        menus.RTB_MT_recipe,
         RTB_PT_conditions,
         RTB_PT_mappings,
         material_presets.RTB_PT_material_presets,

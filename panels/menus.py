@@ -2,6 +2,7 @@
 
 import bpy
 
+from ..operators.add_condition import RTB_OT_add_condition
 from ..operators.cancel_rendering import RTB_OT_cancel_rendering
 from ..operators.check_recipe import RTB_OT_check_recipe
 from ..operators.compare_renderers import RTB_OT_compare_renderers
@@ -19,17 +20,35 @@ from ..operators.show_still import RTB_OT_show_still
 from ..operators.vary_property import RTB_OT_vary_property
 from ..rtb_addon.blender import mapping_edits
 from ..rtb_addon.blender.fields import field_of
+from .condition_menus import RTB_MT_conditions
 
-IN_RENDER = (
-    RTB_OT_render_condition,
-    RTB_OT_cancel_rendering,
-    RTB_OT_show_montage,
-    RTB_OT_show_still,
+IN_RECIPE = (
     RTB_OT_check_recipe,
     RTB_OT_preview_condition,
+    RTB_OT_show_montage,
+    RTB_OT_show_still,
     RTB_OT_edit_mappings_text,
     RTB_OT_open_folder,
 )
+ASKING = (RTB_OT_compare_renderers, RTB_OT_pack_recipe)
+
+
+class RTB_MT_recipe(bpy.types.Menu):
+    """What can be done with the recipe and its table"""
+
+    bl_idname = "RTB_MT_recipe"
+    bl_label = "Recipe"
+
+    def draw(self, context):
+        layout = self.layout
+        for verb in IN_RECIPE:
+            layout.operator(verb.bl_idname)
+        layout.operator_context = "INVOKE_DEFAULT"
+        for verb in ASKING:
+            layout.operator(verb.bl_idname, text=f"{verb.bl_label}…")
+        layout.separator()
+        layout.operator(RTB_OT_add_condition.bl_idname, icon="ADD")
+        layout.menu(RTB_MT_conditions.bl_idname)
 
 
 def draw_in_export(menu, context):
@@ -50,10 +69,9 @@ def draw_in_render(menu, context):
     layout = menu.layout
     layout.separator()
     layout.operator(RTB_OT_render_recipe.bl_idname, icon="RENDER_STILL")
-    for verb in IN_RENDER:
-        layout.operator(verb.bl_idname)
-    layout.operator_context = "INVOKE_DEFAULT"
-    layout.operator(RTB_OT_compare_renderers.bl_idname, text="Compare Renderers…")
+    layout.operator(RTB_OT_render_condition.bl_idname)
+    layout.operator(RTB_OT_cancel_rendering.bl_idname)
+    layout.menu(RTB_MT_recipe.bl_idname)
 
 
 def draw_in_context_menu(menu, context):

@@ -2,9 +2,10 @@
 
 import bpy
 
-from ..operators import running
+from ..operators import child_verb, running
 from ..operators.cancel_rendering import RTB_OT_cancel_rendering
 
+VERBS = {"check": "Checking…", "compare": "Comparing…", "pack": "Packing…"}
 MOST = 4  # conditions under way that have a bar of their own
 
 
@@ -21,6 +22,13 @@ def draw_under_way(layout, batch) -> None:
     column.scale_y = 0.7
     for name, fraction in list(batch.under_way.items())[:MOST]:
         column.progress(factor=fraction, type="BAR", text=name)
+
+
+def draw_verbs(layout) -> None:
+    """Draw what else is being done, and has no bar."""
+    for each in child_verb.under_way:
+        if each.verb in VERBS:
+            layout.label(text=VERBS[each.verb], icon="SORTTIME")
 
 
 def progress_text(batch) -> str:

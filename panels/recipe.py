@@ -12,7 +12,7 @@ from ..operators.render_recipe import RTB_OT_render_recipe
 from ..operators.select_culprit import RTB_OT_select_culprit
 from ..operators.show_montage import RTB_OT_show_montage
 from ..rtb_addon.blender.folders import recipe_name
-from .progress import draw_progress, draw_under_way
+from .progress import draw_progress, draw_under_way, draw_verbs
 from .sentences import draw_sentences
 
 
@@ -32,6 +32,7 @@ class RTB_PT_recipe(bpy.types.Panel):
         draw_options(layout, context.scene)
         layout.separator()
         draw_run(layout)
+        draw_verbs(layout)
         width = context.region.width
         draw_sentences(layout, findings.errors, width, alert=True, beside=draw_culprit)
         draw_sentences(layout, findings.remarks, width, beside=draw_culprit)
@@ -57,12 +58,12 @@ def draw_run(layout) -> None:
         row.operator(RTB_OT_render_recipe.bl_idname, icon="RENDER_STILL")
     grid = layout.grid_flow(row_major=True, columns=2, even_columns=True, align=True)
     grid.operator(RTB_OT_render_condition.bl_idname)
-    grid.operator(RTB_OT_check_recipe.bl_idname, icon="CHECKMARK")
+    grid.operator(RTB_OT_check_recipe.bl_idname)
     grid.operator(RTB_OT_show_montage.bl_idname)
     grid.operator_context = "INVOKE_DEFAULT"
-    grid.operator(RTB_OT_compare_renderers.bl_idname, text="Compare…", icon="ARROW_LEFTRIGHT")
+    grid.operator(RTB_OT_compare_renderers.bl_idname, text="Compare…")
     grid.operator(RTB_OT_open_folder.bl_idname)
-    grid.operator(RTB_OT_pack_recipe.bl_idname, text="Pack…", icon="PACKAGE")
+    grid.operator(RTB_OT_pack_recipe.bl_idname, text="Pack…")
 
 
 def draw_culprit(layout, sentence: str) -> None:

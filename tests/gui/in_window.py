@@ -168,6 +168,7 @@ def disturb_batches(driver: Driver, folder: Path):
     yield from show_montage_beside(driver)
     bpy.context.scene.rtb.samples = LONG
     yield from start(driver)
+    bpy.ops.rtb.test_renderers()  # one more child, which would answer to nobody
     addon_utils.disable(EXTENSION)
     driver.report["left"]["disabling"] = children()
     addon_utils.enable(EXTENSION)

@@ -14,7 +14,9 @@ LAMP = "Light"
 
 def workflow(driver: Driver, folder: Path):
     """Vary a location by a right click, preview rows, check, select a culprit, render one row."""
+    yield from render_unsaved(driver)
     make_recipe(folder, 3, "tracer", samples=32, size=(64, 48))
+    yield from search(driver)
     yield from driver.open_sidebar("Item")
     yield from vary_by_click(driver)
     yield from driver.open_sidebar("RenderToolbox")
@@ -22,6 +24,36 @@ def workflow(driver: Driver, folder: Path):
     yield from look_at_mappings(driver)
     yield from check(driver)
     yield from render(driver)
+
+
+def render_unsaved(driver: Driver):
+    """Press Render Recipe in a file that has no place yet, and leave the question where to save it."""
+    yield from driver.open_sidebar("RenderToolbox")
+    yield from driver.find("rtb.render_recipe", "VIEW_3D", "UI", down=112)
+    yield from driver.click(driver.x, driver.y)
+    yield 1.0
+    driver.photograph("workflow-unsaved")
+    driver.report["asked to save"] = driver.area("FILE_BROWSER") is not None
+    yield from driver.key("ESC")
+    yield 0.7
+
+
+def search(driver: Driver):
+    """Find Check by its name, as any command of Blender's, and let it run."""
+    area = driver.area("VIEW_3D")
+    yield from driver.move(area.x + area.width / 3, area.y + area.height / 2)
+    yield from driver.key("F3")
+    yield 0.4
+    yield from driver.type("recipe")
+    yield 0.6
+    driver.photograph("workflow-search")
+    for _ in range(len("recipe")):
+        yield from driver.key("BACK_SPACE")
+    yield from driver.type("check")
+    yield 0.6
+    yield from driver.key("RET")
+    yield from until_checked(driver)
+    driver.report["checked by name"] = list(extension("operators.findings").remarks)
 
 
 def vary_by_click(driver: Driver):
@@ -106,7 +138,13 @@ def checked(driver: Driver):
     """Check, and wait for what the child says."""
     with bpy.context.temp_override(window=driver.window):
         bpy.ops.rtb.check_recipe()
-    while extension("operators.checking").child is not None:
+    yield from until_checked(driver)
+
+
+def until_checked(driver: Driver):
+    """Wait for what a check that was begun says."""
+    yield 0.3
+    while extension("operators.child_verb").under_way or extension("operators.reading").now is not None:
         yield 0.1
     yield 0.6
 
@@ -136,5 +174,6 @@ def render(driver: Driver):
 if __name__ == "__main__":
     report_file, home, pictures = map(Path, sys.argv[sys.argv.index("--") + 1 :])
     bpy.context.preferences.view.show_splash = False
+    bpy.context.preferences.view.filebrowser_display_type = "SCREEN"  # a window of its own has no photograph
     driver = Driver(report_file, pictures)
     driver.run(workflow(driver, home))

@@ -5,6 +5,8 @@ import pytest
 SCRIPT = "in_workflow.py"
 WINDOW = True
 PANELS = (
+    "workflow-unsaved",
+    "workflow-search",
     "workflow-vary",
     "workflow-preview",
     "workflow-mappings",
@@ -18,6 +20,14 @@ PANELS = (
 @pytest.mark.parametrize("name", PANELS)
 def test_every_photograph_shows_something(shows, name):
     assert shows(name)
+
+
+def test_a_file_that_was_never_saved_is_asked_where_to_go(report):
+    assert report["asked to save"]
+
+
+def test_commands_are_found_by_their_names(report):
+    assert any("World" in each for each in report["checked by name"])
 
 
 def test_a_right_click_makes_one_component_of_a_location_a_variable(report):
