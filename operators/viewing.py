@@ -57,10 +57,18 @@ def follow(batch) -> None:
         ask("wake", {"verb": "wake"}, lambda answer: None)  # so that the first picture comes at once
     if batch.finished and (before := _followed) != (batch.folder, batch.finished):
         _followed = batch.folder, batch.finished
-        if before is None and batch.total > 1:
-            bpy.context.window_manager.rtb_view.condition = ""
+        if before is None:
+            _begin_with(batch)
         show(batch.folder, open_editor=before is None)
     redraw()
+
+
+def _begin_with(batch) -> None:
+    """Let the view be of what a batch renders, whatever was looked at last."""
+    view = bpy.context.window_manager.rtb_view
+    view.renderer = "recipe"
+    if batch.total > 1:
+        view.condition = ""
 
 
 def followed_to_the_end() -> None:
