@@ -32,7 +32,7 @@ class RTB_OT_add_spectra_folder(bpy.types.Operator):
         return {"RUNNING_MODAL"}
 
     def execute(self, context):
-        preferences().spectra_folders.add().path = self.directory
+        _folders().add().path = self.directory
         context.preferences.is_dirty = True
         return {"FINISHED"}
 
@@ -48,16 +48,22 @@ class RTB_OT_remove_spectra_folder(bpy.types.Operator):
 
     @classmethod
     def poll(cls, context):
-        return preferences() is not None and len(preferences().spectra_folders) > 0
+        return preferences() is not None and len(_folders()) > 0
 
     def execute(self, context):
-        if self.index >= len(preferences().spectra_folders):
+        if self.index >= len(_folders()):
             self.report({"ERROR"}, f"There is no folder {self.index} in the list")
             return {"CANCELLED"}
-        preferences().spectra_folders.remove(self.index)
+        _folders().remove(self.index)
         context.preferences.is_dirty = True
         use_library_spectrum.forget()
         return {"FINISHED"}
+
+
+def _folders():
+    chosen = preferences()
+    assert chosen is not None  # without it there are no buttons
+    return chosen.spectra_folders
 
 
 def draw_folders(layout, folders) -> None:

@@ -14,7 +14,8 @@ class SpectrumDialog(SpectrumVerb):
     """A verb with a dialog, which begins with what the field says now and shows what becomes of it."""
 
     width = 260
-    said = None  # what is shown; the text is made where something was changed, and not while drawing
+    # What is shown and why nothing is: made where something was changed, and not while drawing.
+    said: tuple[str, str] = ("", "")
 
     def invoke(self, context, event):
         try:
@@ -46,16 +47,15 @@ class SpectrumDialog(SpectrumVerb):
         self.layout.use_property_split = True
         self.layout.use_property_decorate = False
         self.draw_asked(self.layout)
-        if self.said is not None:
-            self.draw_becomes(self.layout, context)
+        self.draw_becomes(self.layout, context)
 
     def draw_becomes(self, layout, context) -> None:
         """Draw the curve of what is asked for, or why there is none."""
         text, sentence = self.said
-        shown = curve_previews.shown(*self.picture(context)) if text else None
-        if sentence := sentence or (shown.sentence if shown else ""):
-            layout.label(text=sentence, icon="ERROR")
-        else:
+        shown = curve_previews.shown(*self.picture(context)) if text else curve_previews.Shown(0, sentence)
+        if shown.sentence:
+            layout.label(text=shown.sentence, icon="ERROR")
+        elif shown.icon:
             layout.template_icon(icon_value=shown.icon, scale=UNITS)
 
     def draw_asked(self, layout) -> None:

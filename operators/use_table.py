@@ -80,8 +80,7 @@ class RTB_OT_use_table(SpectrumDialog, bpy.types.Operator):
                 row = column.row(align=True)
                 row.prop(sample, "wavelength", text="")
                 row.prop(sample, "value", text="")
-        if self.said is not None:
-            self.draw_becomes(sides.column(), context)
+        self.draw_becomes(sides.column(), context)
 
     def text(self, context, owner):
         rows = sorted((each.wavelength, each.value) for each in self.samples)

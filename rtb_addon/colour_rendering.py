@@ -60,5 +60,5 @@ def _cones(uv: FloatArray) -> FloatArray:
 
 def _uniform(seen: FloatArray, white: FloatArray) -> FloatArray:
     """Return W*, U*, V* of the CIE's diagram of 1964, (colours, 3)."""
-    lightness = 25 * np.cbrt(seen[:, 0]) - 17
+    lightness = 25.0 * np.cbrt(seen[:, 0]) - 17.0
     return np.column_stack([lightness, 13 * lightness[:, None] * (seen[:, 1:] - white[1:])])
