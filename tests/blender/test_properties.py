@@ -83,6 +83,40 @@ def test_undo_takes_a_spectrum_and_a_row_back(tagged):
     assert bpy.data.materials["Paint"].rtb.reflectance == "0.9"
 
 
+def other(kind, value):
+    """Return a value that a property may have and has not."""
+    if kind.type == "ENUM" and kind.is_enum_flag:
+        return {each.identifier for each in kind.enum_items} - value
+    if kind.type == "ENUM":
+        known = [each.identifier for each in kind.enum_items] or ["mitsuba", "tracer"]  # ours are asked for
+        return next(each for each in known if each != value)
+    return {"STRING": f"{value}x", "BOOLEAN": not value}.get(kind.type) or value + 1
+
+
+def test_undo_and_redo_reach_everything_that_a_scene_says(tagged):
+    before = kept(tagged)
+    bpy.ops.ed.undo_push(message="before")
+    settings = tagged.rtb
+    for name, kind in settings.bl_rna.properties.items():
+        if kind.type not in ("COLLECTION", "POINTER") and not kind.is_readonly:
+            setattr(settings, name, other(kind, getattr(settings, name)))
+    settings.mappings_text = bpy.data.texts.new("Further")
+    settings.mappings.add().path = "location"
+    settings.variables.add().name = "gloss"
+    after = kept(tagged)
+    assert not [name for name in before if name.startswith("scene.") and before[name] == after[name]]
+    bpy.ops.ed.undo_push(message="after")
+    for step, said, counts in (
+        (bpy.ops.ed.undo, before, (0, None)),
+        (bpy.ops.ed.redo, after, (1, "Further")),
+    ):
+        step()
+        settings = bpy.context.scene.rtb
+        text = settings.mappings_text and settings.mappings_text.name
+        assert kept(bpy.context.scene) == said
+        assert (len(settings.mappings), text) == counts
+
+
 def test_the_size_is_that_of_blenders_renders(scene):
     scene.render.resolution_x, scene.render.resolution_y, scene.render.resolution_percentage = 1001, 500, 50
     assert (scene.rtb.width, scene.rtb.height) == (500, 250)
