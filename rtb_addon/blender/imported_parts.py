@@ -9,7 +9,7 @@ from typing import NamedTuple
 from ..conditions import Condition
 from ..recipe import Recipe
 from ..recipe.condition_scene import adjustments_of
-from ..scene.adjustments import Adjustments, Removal
+from ..scene.adjustments import Adjustments, MatrixEdit, Removal
 from ..scene.document import Scene
 from .baked import PARENT_COLUMNS
 from .conditions import IMAGE_NAME
@@ -28,6 +28,7 @@ class Part(NamedTuple):
     name : of the recipe that it becomes
     rows : of the table
     document : their parent scene, without what their mappings delete
+    placed : ids of nodes whose place the mappings set as one matrix
     mappings : their mappings, in blocks
     columns : cells of each variable, which the rows have or the blocks need
     """
@@ -35,24 +36,33 @@ class Part(NamedTuple):
     name: str
     rows: Sequence[Condition]
     document: Scene
+    placed: frozenset[str]
     mappings: str
     columns: Mapping[str, Sequence[str]]
 
 
 def parts_of(recipe: Recipe) -> list[Part]:
     """Return the parts of a recipe, the rows of each in their order."""
-    together: dict[tuple, list[Condition]] = {}
+    together: dict[tuple, list[tuple[Condition, Adjustments]]] = {}
     for row in recipe.conditions:
-        key = row.parent_scene, row.cells.get("mappingsFile", ""), _removals(recipe, row)
-        together.setdefault(key, []).append(row)
+        said = _said(recipe, row)
+        removals = tuple(dict.fromkeys(each.id for each in said.edits if isinstance(each, Removal)))
+        key = row.parent_scene, row.cells.get("mappingsFile", ""), removals
+        together.setdefault(key, []).append((row, said))
     names = _names(recipe.name, [key[0] for key in together])
     return [
-        _part(recipe, name, rows, removals)
-        for name, ((*_, removals), rows) in zip(names, together.items(), strict=True)
+        _part(recipe, name, [row for row, _ in pairs], [said for _, said in pairs], removals)
+        for name, ((*_, removals), pairs) in zip(names, together.items(), strict=True)
     ]
 
 
-def _part(recipe: Recipe, name: str, rows: Sequence[Condition], removals: tuple[str, ...]) -> Part:
+def _part(
+    recipe: Recipe,
+    name: str,
+    rows: Sequence[Condition],
+    said: Sequence[Adjustments],
+    removals: Sequence[str],
+) -> Part:
     document, mappings = recipe.parent_of(rows[0]), recipe.mappings_of(rows[0])
     columns = {
         variable: [row.cells[variable] for row in rows]
@@ -61,20 +71,20 @@ def _part(recipe: Recipe, name: str, rows: Sequence[Condition], removals: tuple[
     }
     text = mappings.text
     if mappings.is_json:
-        text, added = as_blocks(recipe, rows, removals)
+        text, added = as_blocks(said, removals)
         columns |= added
     if removals:
         edits = tuple(Removal(id, mappings.file, 0) for id in removals)
         document = document.adjusted(Adjustments(edits=edits))
-    return Part(name, rows, document, text, columns)
+    placed = frozenset(each.node for one in said for each in one.edits if isinstance(each, MatrixEdit))
+    return Part(name, rows, document, placed, text, columns)
 
 
-def _removals(recipe: Recipe, row: Condition) -> tuple[str, ...]:
-    """Return the ids that a row's mappings delete, which only those in JSON can."""
+def _said(recipe: Recipe, row: Condition) -> Adjustments:
+    """Return what a row's mappings say where they are in JSON, which Blender does not keep."""
     if not recipe.mappings_of(row).is_json:
-        return ()
-    edits = adjustments_of(recipe, row, recipe.find_file).edits
-    return tuple(dict.fromkeys(each.id for each in edits if isinstance(each, Removal)))
+        return Adjustments()
+    return adjustments_of(recipe, row, recipe.find_file)
 
 
 def _names(base: str, parents: Sequence[str]) -> list[str]:

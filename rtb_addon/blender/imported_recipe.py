@@ -50,7 +50,8 @@ def open_recipe(folder: Path | str) -> tuple[list[bpy.types.Scene], list[str]]:
 
 def _fill(scene, recipe: Recipe, part: Part) -> list[str]:
     """Put a part of a recipe into a scene, and return what is left out."""
-    importer = Importer(part.document, scene, (recipe.options.width, recipe.options.height))
+    size = recipe.options.width, recipe.options.height
+    importer = Importer(part.document, scene, size, part.placed)
     importer.put()
     settings = scene.rtb
     settings.name = part.name

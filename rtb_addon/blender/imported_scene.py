@@ -32,6 +32,7 @@ class Importer:
 
     Attributes
     ----------
+    placed : ids of nodes whose place is to be written as one matrix, for mappings set it
     cameras : objects that are cameras, by the ids that a recipe may call them
     remarks : what is left out, a sentence each
     renamed : ids that become others when the scene is written, for their names were taken
@@ -40,6 +41,7 @@ class Importer:
     document: Scene
     scene: bpy.types.Scene
     size: tuple[int, int]
+    placed: frozenset[str] = frozenset()
     cameras: dict[str, bpy.types.Object] = field(default_factory=dict)
     remarks: list[str] = field(default_factory=list)
     renamed: dict[str, str] = field(default_factory=dict)
@@ -65,6 +67,7 @@ class Importer:
         made = self._object(node.get("id") or node.get("name") or "Node", first, parent)
         self._note(node.get("id"), made.name, "")
         _place(made, node)
+        made.rtb.as_matrix |= node.get("id") in self.placed
         for link, content in zip(placed, contents, strict=False):
             self._bind(made, link, content)
             if isinstance(content, bpy.types.Camera):
@@ -148,6 +151,7 @@ def _place(made, node: Element) -> None:
         if all(np.array_equal(turn[:3], np.eye(3)[k]) for k, turn in enumerate(turns)):
             made.rotation_euler = [math.radians(turn[3]) for turn in turns]
             return
+    made.rtb.as_matrix = [kind for kind, _ in found] == ["matrix"]
     made.matrix_basis = local_matrix(node).T.tolist()
 
 

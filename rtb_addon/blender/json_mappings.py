@@ -4,23 +4,15 @@ from __future__ import annotations
 
 from collections.abc import Iterator, Mapping, Sequence
 
-import numpy as np
-
-from ..conditions import Condition
-from ..errors import RecipeError
-from ..recipe import Recipe
-from ..recipe.condition_scene import adjustments_of
 from ..scene.adjustments import Adjustments, MatrixEdit, PathEdit
 from ..scene.collada.ids import clean
-from ..scene.collada.write_numbers import number, numbers
-from ..scene.placement import placement_of
+from ..scene.collada.write_numbers import numbers
 
-Line = tuple[str, str, str]  # block, left side, value; declarations have no value
+_COLLADA = ("Collada", 0)
+Line = tuple[tuple[str, int], str, str]  # block and its number, left side, value; declarations have none
 
 
-def as_blocks(
-    recipe: Recipe, rows: Sequence[Condition], removals: Sequence[str] = ()
-) -> tuple[str, dict[str, list[str]]]:
+def as_blocks(rows: Sequence[Adjustments], removals: Sequence[str] = ()) -> tuple[str, dict[str, list[str]]]:
     """
     Return a text of blocks that says the same for some rows, and new columns: a cell for each of the rows.
 
@@ -28,11 +20,12 @@ def as_blocks(
 
     Parameters
     ----------
+    rows : what the mappings say for each; nodes that they place are to have one matrix
     removals : ids that are deleted elsewhere, so that nothing need be said of them
     """
     alike: dict[tuple, dict[int, list[Line]]] = {}
     for place, row in enumerate(rows):
-        lines = list(_lines(adjustments_of(recipe, row, recipe.find_file), removals))
+        lines = list(_lines(row, removals))
         alike.setdefault(tuple((kind, left) for kind, left, _ in lines), {})[place] = lines
     columns: dict[str, list[str]] = {}
     if len(alike) > 1:
@@ -49,12 +42,13 @@ def as_blocks(
 def _blocks(members: Mapping[int, list[Line]], group: str, count: int, columns: dict[str, list[str]]) -> str:
     """Return the blocks of rows for which the same things change; what varies becomes columns."""
     blocks: list[str] = []
-    before = ""
+    before = ("", 0)
     for same in zip(*members.values(), strict=True):
-        kind, left, _ = same[0]
-        if kind != before:
-            blocks.append(f"{'}' + chr(10) if before else ''}{kind}{f' {group}' if group else ''} {{")
-            before = kind
+        block, left, _ = same[0]
+        if block != before:
+            head = f"{block[0]} {group} {{" if group else f"{block[0]} {{"
+            blocks += ["}", head] if before[0] else [head]
+            before = block
         cells = dict(zip(members, (value for *_, value in same), strict=True))
         blocks.append(f"    {left}{_value(left, cells, count, columns)}")
     return "\n".join([*blocks, "}", ""]) if blocks else ""
@@ -77,26 +71,19 @@ def _value(left: str, cells: Mapping[int, str], count: int, columns: dict[str, l
 def _lines(said: Adjustments, removals: Sequence[str]) -> Iterator[Line]:
     for edit in said.edits:
         if isinstance(edit, PathEdit) and edit.path.split(":")[0] not in removals:
-            yield "Collada", edit.path, edit.value
+            yield _COLLADA, edit.path, edit.value
         elif isinstance(edit, MatrixEdit) and edit.node not in removals:
-            yield from _placed(edit)
+            yield _COLLADA, f"{edit.node}:matrix|sid=transform", numbers(edit.numbers)
+    count, known = 0, set()
     for each in said.objects:
+        if each.id in known:  # what is said of it once more needs a block of its own
+            count, known = count + 1, set()
+        known.add(each.id)
         if each.category:
-            yield "Generic", f"{each.id}:{each.category}:{each.model}", ""
+            yield ("Generic", count), f"{each.id}:{each.category}:{each.model}", ""
         for one in each.properties:
             kind = f".{one.type}" if one.type else ""
-            yield "Generic", f"{each.id}:{one.name}{kind}", one.value
+            yield ("Generic", count), f"{each.id}:{one.name}{kind}", one.value
     for line in said.native:
         left, _, value = line.text.partition(" = ")
-        yield line.block or "Mitsuba", left, value
-
-
-def _placed(edit: MatrixEdit) -> Iterator[Line]:
-    where = placement_of(np.reshape(edit.numbers, (4, 4)))
-    if where is None:
-        raise RecipeError(f"its mappings shear {edit.node}, which Blender's transforms cannot say")
-    yield "Collada", f"{edit.node}:translate|sid=location", numbers(where.location)
-    for k, axis in enumerate("XYZ"):
-        turned = f"{numbers(np.eye(3)[k])} {number(where.rotation[k])}"
-        yield "Collada", f"{edit.node}:rotate|sid=rotation{axis}", turned
-    yield "Collada", f"{edit.node}:scale|sid=scale", numbers(where.scale)
+        yield (line.block or "Mitsuba", 0), left, value

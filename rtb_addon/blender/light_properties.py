@@ -92,9 +92,11 @@ class RTB_PG_world(bpy.types.PropertyGroup):
 
 
 class RTB_PG_object(bpy.types.PropertyGroup):
-    """What light a mesh sends out, from the side of its normals."""
+    """What light a mesh sends out, from the side of its normals, and how its place is written."""
 
     emits: BoolProperty(name="Emits", description="Let this surface shine", default=False)
     spectrum: StringProperty(name="Spectrum", description=f"What it sends out: {TYPED}", default="D65")
     emission: EnumProperty(name="Amount As", items=EMISSIONS, default="radiance")
     amount: FloatProperty(name="Amount", default=1.0, min=0.0)
+    # Of a recipe that was opened: its mappings count on one matrix, or on separate transforms.
+    as_matrix: BoolProperty(options={"HIDDEN"})

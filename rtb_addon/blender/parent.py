@@ -77,7 +77,8 @@ class ParentWriter:
         above = self._above(node)
         parent = None if above is None else self._node(above)
         local = node.to_world if above is None else np.linalg.solve(above.to_world, node.to_world)
-        id = self._ids["node", node.key] = self.document.node(node.name, _placement(local, node.own), parent)
+        where = local if node.as_matrix else _placement(local, node.own)
+        id = self._ids["node", node.key] = self.document.node(node.name, where, parent)
         fill = {"body": self._body, "lamp": self._lamp, "camera": self._camera}.get(node.kind)
         if fill is not None:
             fill(id, node)

@@ -83,6 +83,7 @@ class Node:
     ----------
     key : tells it from all others; parent is the key of what it stands relative to
     own : location, rotation and scale as the object itself has them
+    as_matrix : whether its place is written as one matrix
     content : key of a body, lamp or camera
     materials : names of this object's for those slots of its body that have faces
     """
@@ -96,6 +97,7 @@ class Node:
     content: object = None
     materials: Mapping[int, str] = field(default_factory=dict)
     emission: Emission | None = None
+    as_matrix: bool = False
 
 
 @dataclass
@@ -133,7 +135,8 @@ def _look(seen: Seen, instance, depsgraph) -> None:
     content = _content(seen, object_, depsgraph) if instance.show_self or instance.is_instance else {}
     if not instance.is_instance:
         above = None if object_.parent is None else object_.parent.name_full
-        seen.nodes[name] = Node(name, name, above, to_world, _own_placement(object_), **content)
+        own, whole = _own_placement(object_), object_.rtb.as_matrix
+        seen.nodes[name] = Node(name, name, above, to_world, own, as_matrix=whole, **content)
         return
     above = instance.parent.name_full
     if not content:

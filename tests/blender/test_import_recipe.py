@@ -6,6 +6,7 @@ from pathlib import Path
 import bpy
 import numpy as np
 import pytest
+from lxml import etree
 
 from tests.blender.test_varied_properties import assert_parameters
 
@@ -89,7 +90,7 @@ def assert_renders_the_same(one: dict, other: dict) -> None:
         assert {each.id for each in first.shapes} == {each.id for each in second.shapes}
         shapes = {each.id: each for each in second.shapes}
         for shape in first.shapes:
-            np.testing.assert_allclose(corners(shape), corners(shapes[shape.id]), atol=1e-5)
+            np.testing.assert_allclose(corners(shape), corners(shapes[shape.id]), rtol=1e-6, atol=1e-5)
             assert shape.material == shapes[shape.id].material
         lights = {each.id: each for each in second.lights}
         assert {each.id for each in first.lights} == set(lights)
@@ -135,7 +136,7 @@ def test_names_that_are_taken_are_others_in_the_mappings_too(recipe, reopened, l
             pytest.approx(each.to_world, abs=1e-6) for each in other.lights
         ]
         for first, second in zip(one.shapes, other.shapes, strict=True):
-            np.testing.assert_allclose(corners(first), corners(second), atol=1e-5)
+            np.testing.assert_allclose(corners(first), corners(second), rtol=1e-6, atol=1e-5)
             before, after = one.materials[first.material], other.materials[second.material]
             assert before.model == after.model
             assert_parameters(before.parameters, after.parameters)
@@ -183,6 +184,23 @@ def test_mappings_in_json_become_blocks_that_say_the_same(builder, reopened, lib
     assert_renders_the_same(scenes_of(library, tmp_path / "plain"), scenes_of(library, folder))
 
 
+def test_a_node_whose_place_is_one_matrix_keeps_the_meaning_of_its_paths(recipe, reopened, library):
+    file = recipe.folder / "parent.dae"
+    root = etree.fromstring(file.read_bytes())
+    lamp = root.find(".//{*}node[@id='Lamp']")
+    for each in [each for each in lamp if each.get("sid")]:
+        lamp.remove(each)
+    matrix = etree.SubElement(lamp, "{*}matrix".replace("*", etree.QName(lamp).namespace), sid="transform")
+    matrix.text = "0 -1 0 7 1 0 0 2 0 0 1 10 0 0 0 1"
+    lamp.insert(0, matrix)
+    file.write_bytes(etree.tostring(root))
+    once = scenes_of(library, recipe.folder)
+    assert [each.lights[0].to_world[2, 3] for each in once.values()] == [11.5, 14], (
+        "the matrix, then the path"
+    )
+    assert_renders_the_same(once, scenes_of(library, reopened(filepath=str(recipe.folder))))
+
+
 def test_a_scene_whose_y_axis_is_up_keeps_the_meaning_of_its_paths(recipe, reopened, library):
     file = recipe.folder / "parent.dae"
     file.write_text(file.read_text().replace("<up_axis>Z_UP</up_axis>", "<up_axis>Y_UP</up_axis>"))
@@ -209,7 +227,7 @@ def assert_rows_render_the_same(library, recipe: Path, folders: list[Path]) -> N
         for first, second in zip(one.lights, other.lights, strict=True):
             np.testing.assert_allclose(first.to_world, second.to_world, atol=2e-6)
         for first, second in zip(one.shapes, other.shapes, strict=True):
-            np.testing.assert_allclose(corners(first), corners(second), atol=1e-5)
+            np.testing.assert_allclose(corners(first), corners(second), rtol=1e-6, atol=1e-5)
             before, after = one.materials[first.material], other.materials[second.material]
             assert before.model == after.model
             assert_parameters(before.parameters, after.parameters)
@@ -284,6 +302,19 @@ def test_mappings_in_json_that_change_other_things_in_other_rows_become_groups(
     plain, files = in_json(builder, library, tmp_path, f"[ {PAINTED} ]")
     folders = opened_and_written(library, tmp_path, **files)
     assert len(folders) == 1
+    assert_rows_render_the_same(library, plain, folders)
+
+
+def test_mappings_in_json_may_shear_a_node_and_speak_twice_of_a_material(scene, builder, library, tmp_path):
+    sheared = """{ "name": "Floor", "broadType": "nodes", "operation": "update", "destination": "mexximp",
+        "properties": { "name": "transformation", "operation":
+            "oldValue * mexximpRotate([0 0 1], 0.5) * mexximpScale([1 2 1]) * mexximpRotate([0 0 1], 1)" } },
+      { "name": "Paint", "broadType": "materials", "specificType": "matte", "operation": "update",
+        "properties": { "name": "diffuseReflectance", "valueType": "spectrum", "value": "0.1" } },
+      { "name": "Paint", "broadType": "materials", "specificType": "matte", "operation": "update",
+        "properties": { "name": "diffuseReflectance", "valueType": "spectrum", "value": "(paint)" } }"""
+    plain, files = in_json(builder, library, tmp_path, f"[ {sheared} ]")
+    folders = opened_and_written(library, tmp_path, **files)
     assert_rows_render_the_same(library, plain, folders)
 
 
