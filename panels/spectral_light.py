@@ -18,7 +18,7 @@ class RTB_PT_spectral_light(SpectralPanel, bpy.types.Panel):
     thing = "light"
 
     def draw_spectra(self, layout, context, settings):
-        draw_spectrum(layout, context, settings, "LIGHT")
+        wrong = draw_spectrum(layout, context, settings, "LIGHT")
         layout.prop(settings, "measure")
         if settings.measure == "WATTS":
             layout.prop(context.light, "energy")
@@ -26,7 +26,8 @@ class RTB_PT_spectral_light(SpectralPanel, bpy.types.Panel):
             layout.prop(settings, "amount")
         if settings.measure == "LUX" and context.light.type != "SUN":
             layout.prop(settings, "distance")
-        draw_told(layout, context, light_words.told(context.light, context.scene))
+        if not wrong:
+            draw_told(layout, context, light_words.told(context.light, context.scene))
 
 
 def draw_told(layout, context, found) -> None:

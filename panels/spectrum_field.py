@@ -10,9 +10,9 @@ FIELD = 0.6  # of the width; the rest is for the label
 SMALLEST, LARGEST = 6, 10  # curves [units]
 
 
-def draw_spectrum(layout, context, group, field: str, text: str | None = None, flat: bool = True) -> None:
+def draw_spectrum(layout, context, group, field: str, text: str | None = None, flat: bool = True) -> str:
     """
-    Draw a field with its curve; the active condition says what its variables are.
+    Draw a field with its curve, and return why there is none; the active condition says its variables.
 
     Parameters
     ----------
@@ -28,7 +28,8 @@ def draw_spectrum(layout, context, group, field: str, text: str | None = None, f
     draw_menu(row, field)
     said = typed_in(group, name, context.scene.rtb)
     if flat or not is_number(said):
-        draw_curve(layout, context, said, FIELDS[field].shines, swatch=not FIELDS[field].index)
+        return draw_curve(layout, context, said, FIELDS[field].shines, swatch=not FIELDS[field].index)
+    return ""
 
 
 def draw_below(layout, label: str):
@@ -46,8 +47,8 @@ def is_cut(text: str, context) -> bool:
     return len(text) * LETTER > room
 
 
-def draw_curve(layout, context, text: str, shines: bool, swatch: bool = True) -> None:
-    """Draw the curve of a spectrum, or why there is none; an index has no colour, and so no swatch."""
+def draw_curve(layout, context, text: str, shines: bool, swatch: bool = True) -> str:
+    """Draw a curve, or why there is none, which is returned; an index has no colour, and so no swatch."""
     scale = context.preferences.system.ui_scale or 1.0  # 0 where there is no window
     units = min(max(int((context.region.width / scale - BESIDE) / curve_previews.UNIT), SMALLEST), LARGEST)
     under = context.scene.rtb.seen_under if swatch else ""
@@ -55,3 +56,4 @@ def draw_curve(layout, context, text: str, shines: bool, swatch: bool = True) ->
     draw_sentences(layout, [found.sentence] if found.sentence else [], context.region.width, alert=True)
     if not found.sentence:
         layout.template_icon(icon_value=found.icon, scale=units)
+    return found.sentence

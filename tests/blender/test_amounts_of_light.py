@@ -1,6 +1,8 @@
 """Lamps in lumens, candelas, luminances and lux, against closed forms and sums over directions."""
 
 import math
+import sys
+from types import SimpleNamespace
 
 import bpy
 import numpy as np
@@ -9,6 +11,7 @@ import pytest
 from rtb_addon.photometry import lumens
 from rtb_addon.spectra import Spectrum
 from rtb_addon.spectra.library import find
+from tests.blender.stand_in_layout import RecordingLayout
 
 
 @pytest.fixture
@@ -142,9 +145,7 @@ def test_a_lamp_without_a_temperature_has_no_rendering_index_either(scene, lamp,
     words = library("blender.light_words")
     words.told(light, scene)
     words.tell_wanted()
-    assert dict(words.told(light, scene).rows[:3]) == dict.fromkeys(
-        ("CCT", "Duv", "CRI (Ra)"), "none"
-    )
+    assert dict(words.told(light, scene).rows[:3]) == dict.fromkeys(("CCT", "Duv", "CRI (Ra)"), "none")
 
 
 def test_the_panel_tells_what_the_light_comes_to(scene, lamp, library):
@@ -182,3 +183,29 @@ def test_watts_of_a_spectrum_nobody_sees_are_no_lumens(shining, scene, lamp, res
 
 def test_lumens_of_a_flat_watt_are_the_efficacy_of_equal_energy():
     assert lumens(Spectrum.constant(1.0)) / 470 == pytest.approx(683 * 106.857 / 470, rel=1e-4)
+
+
+def test_what_is_wrong_with_a_lamps_spectrum_is_said_once(scene, lamp, library, extension):
+    light = lamp("POINT").data
+    light.rtb.use_spectra, light.rtb.spectrum = True, "D64"
+    words, previews = library("blender.light_words"), library("blender.curve_previews")
+    panel = sys.modules[f"{extension}.panels.spectral_light"].RTB_PT_spectral_light
+    region = SimpleNamespace(width=300)
+    context = SimpleNamespace(light=light, scene=scene, region=region, preferences=bpy.context.preferences)
+
+    def drawn() -> str:
+        layout = RecordingLayout()
+        panel.draw_spectra(None, layout, context, light.rtb)
+        return " ".join(text for kind, text in layout.drawn if kind == "label")
+
+    drawn()
+    previews.make_wanted()
+    words.tell_wanted()
+    drawn()
+    assert drawn().count("did you mean") == 1
+    light.rtb.spectrum, light.rtb.measure, light.shadow_soft_size = "D65", "NITS", 0
+    drawn()
+    previews.make_wanted()
+    drawn()
+    words.tell_wanted()
+    assert drawn().count("give it a radius") == 1
