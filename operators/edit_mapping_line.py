@@ -2,7 +2,6 @@
 
 import bpy
 
-from ..rtb_addon.blender import written_mappings
 from .mapping_verbs import LineVerb
 
 
@@ -15,6 +14,8 @@ class RTB_OT_edit_mapping_line(LineVerb, bpy.types.Operator):
     text: bpy.props.StringProperty(name="Line", description="As the mappings' text will have it")
 
     def invoke(self, context, event):
+        from ..rtb_addon.blender import written_mappings  # enabling need not wait for it
+
         lines, _ = written_mappings.written_lines(context.scene)
         self.text = next((each.text for each in lines if each.line == self.line), "")
         return context.window_manager.invoke_props_dialog(self, width=420, confirm_text="Change")
@@ -23,4 +24,6 @@ class RTB_OT_edit_mapping_line(LineVerb, bpy.types.Operator):
         self.layout.prop(self, "text", text="")
 
     def edit(self, context):
+        from ..rtb_addon.blender import written_mappings
+
         written_mappings.rewrite(context.scene, self.line, self.text)

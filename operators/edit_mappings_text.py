@@ -2,8 +2,6 @@
 
 import bpy
 
-from ..rtb_addon.blender import written_mappings
-
 
 class RTB_OT_edit_mappings_text(bpy.types.Operator):
     """Write mappings in the words of RenderToolbox3 in the Text Editor; what stands there counts at once"""
@@ -17,6 +15,8 @@ class RTB_OT_edit_mappings_text(bpy.types.Operator):
     )
 
     def execute(self, context):
+        from ..rtb_addon.blender import written_mappings  # enabling need not wait for it
+
         text = written_mappings.text_for(context.scene)
         text.cursor_set(min(self.line, len(text.lines)) - 1)
         if not bpy.app.background and context.window is not None:

@@ -2,7 +2,6 @@
 
 import bpy
 
-from ..rtb_addon.blender import written_mappings
 from .mapping_verbs import LineVerb
 
 
@@ -13,4 +12,6 @@ class RTB_OT_remove_mapping_line(LineVerb, bpy.types.Operator):
     bl_label = "Remove Line"
 
     def edit(self, context):
+        from ..rtb_addon.blender import written_mappings  # enabling need not wait for it
+
         written_mappings.remove(context.scene, self.line)

@@ -5,7 +5,7 @@ from __future__ import annotations
 import bpy
 
 from ..rtb_addon.errors import RecipeError
-from . import culprits, row_states
+from . import row_states
 from .table_verbs import TableVerb
 
 _KINDS = [
@@ -50,7 +50,9 @@ def _select(context, kind: str, name: str) -> None:
     """Select the object that is meant, or that has what is meant."""
     if kind == "world":
         return
-    thing = getattr(bpy.data, culprits.HOMES[kind]).get(name)
+    from .culprits import HOMES  # enabling need not wait for it
+
+    thing = getattr(bpy.data, HOMES[kind]).get(name)
     users = [each for each in context.view_layer.objects if _uses(each, kind, thing)] if thing else []
     if not users:
         raise RecipeError(f"no object of this view layer is or has the {kind} {name}")

@@ -2,7 +2,6 @@
 
 import bpy
 
-from ..rtb_addon.blender.principled import in_words
 from .spectrum_dialogs import SpectrumDialog
 
 
@@ -18,4 +17,6 @@ class RTB_OT_use_colour(SpectrumDialog, bpy.types.Operator):
     asked = "colour"
 
     def text(self, context, owner):
+        from ..rtb_addon.blender.principled import in_words  # enabling need not wait for it
+
         return in_words(tuple(self.colour))

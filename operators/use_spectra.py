@@ -6,7 +6,6 @@ import bpy
 
 from ..rtb_addon.blender.fields import active
 from ..rtb_addon.blender.lights import colour_of
-from ..rtb_addon.blender.principled import in_words, promote
 
 THINGS = (
     ("MATERIAL", "Material", "The active material", 1),
@@ -25,6 +24,8 @@ class RTB_OT_use_spectra(bpy.types.Operator):
     thing: bpy.props.EnumProperty(name="Thing", items=THINGS)
 
     def execute(self, context):
+        from ..rtb_addon.blender.principled import in_words, promote  # enabling need not wait for it
+
         thing = active(context, self.thing.lower())
         if thing is None:
             self.report({"ERROR"}, f"No {self.thing.lower()} is active here: select one first")

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from typing import TYPE_CHECKING
+
 import bpy
 
 from ..operators.edit_mapping import RTB_OT_edit_mapping
@@ -9,8 +11,10 @@ from ..operators.edit_mapping_line import RTB_OT_edit_mapping_line
 from ..operators.edit_mappings_text import RTB_OT_edit_mappings_text
 from ..operators.remove_mapping import RTB_OT_remove_mapping
 from ..operators.remove_mapping_line import RTB_OT_remove_mapping_line
-from ..rtb_addon.blender import mapping_sentences as words
 from .sentences import draw_sentence
+
+if TYPE_CHECKING:
+    from ..rtb_addon.blender.mapping_sentences import Line, Spectral
 
 BUTTONS = 30  # by how much two small buttons shorten a sentence beside them [pixels at scale 1]
 EQUALS = "\N{NO-BREAK SPACE}="  # stays on the line of the last word
@@ -26,6 +30,9 @@ class RTB_PT_mappings(bpy.types.Panel):
     bl_category = "RenderToolbox"
 
     def draw(self, context):
+        # Enabling the extension need not wait for it.
+        from ..rtb_addon.blender import mapping_sentences as words
+
         layout, scene, width = self.layout, context.scene, context.region.width
         layout.use_property_decorate = False
         spectra, lines = words.spectra_that_vary(scene), words.written(scene)
@@ -44,7 +51,7 @@ class RTB_PT_mappings(bpy.types.Panel):
         layout.operator(RTB_OT_edit_mappings_text.bl_idname, icon="TEXT")
 
 
-def draw_spectrum_mapping(layout, mapping: words.Spectral, width: int) -> None:
+def draw_spectrum_mapping(layout, mapping: Spectral, width: int) -> None:
     """Draw a spectrum that names variables, with the field that says so."""
     column = layout.column(align=True)
     column.alert = bool(mapping.missing)
@@ -55,6 +62,8 @@ def draw_spectrum_mapping(layout, mapping: words.Spectral, width: int) -> None:
 
 def draw_property_mapping(layout, scene, mapping, index: int, width: int) -> None:
     """Draw a property that conditions set, with its value and what can be done with it."""
+    from ..rtb_addon.blender import mapping_sentences as words
+
     missing = words.missing(scene, mapping)
     column = layout.column(align=True)
     column.alert = bool(missing)
@@ -69,7 +78,7 @@ def draw_property_mapping(layout, scene, mapping, index: int, width: int) -> Non
     draw_missing(column, missing, width)
 
 
-def draw_line(layout, line: words.Line, width: int) -> None:
+def draw_line(layout, line: Line, width: int) -> None:
     """Draw a line of the written mappings: a sentence where it has one, with its renderer's badge."""
     row = layout.row(align=True)
     row.alert = bool(line.missing)
