@@ -13,7 +13,7 @@ import numpy as np
 
 from ..rtb_addon.blender import preview
 from ..rtb_addon.blender.colours import xyz_to_working_space
-from ..rtb_addon.blender.folders import safe_name
+from ..rtb_addon.blender.folders import is_unsaved, safe_name
 from ..rtb_addon.blender.properties import rendered_size
 from ..rtb_addon.blender.reading import read_rendered
 from ..rtb_addon.developing import daylight_efficacy
@@ -53,7 +53,7 @@ class EngineRendering:
         for remark in recipe.report:
             self.engine.report({"INFO"}, remark)
         home, options = still_home(self.scene), replace(recipe.options, crop=_framed(self.scene.render))
-        if recipe.folder is None:
+        if is_unsaved(self.scene):
             remark = f"the .blend is not saved, its cube is in {home} until Blender ends"
             self.engine.report({"WARNING"}, remark)
         still = replace(recipe, name=f"{recipe.name} still", options=options)

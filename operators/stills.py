@@ -6,7 +6,7 @@ from pathlib import Path
 
 import bpy
 
-from ..rtb_addon.blender.folders import recipe_folder
+from ..rtb_addon.blender.folders import is_unsaved, recipe_folder
 from ..rtb_addon.errors import RecipeError
 
 STILL = "still"  # the folder, below the recipe's
@@ -14,10 +14,8 @@ STILL = "still"  # the folder, below the recipe's
 
 def still_home(scene) -> Path:
     """Return the folder of a scene's stills; while its recipe has no folder one that passes with Blender."""
-    try:
-        return recipe_folder(scene) / STILL
-    except RecipeError:
-        return Path(bpy.app.tempdir) / STILL
+    home = Path(bpy.app.tempdir) if is_unsaved(scene) else recipe_folder(scene)
+    return home / STILL
 
 
 def newest_still(scene) -> Path:

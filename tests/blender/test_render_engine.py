@@ -185,12 +185,13 @@ def test_each_frame_of_an_animation_keeps_its_cube(scene, tmp_path):
     assert [file.name for file in sorted(tmp_path.glob("frame-*"))] == ["frame-0001.png", "frame-0002.png"]
 
 
-def test_a_file_that_was_never_saved_renders_and_its_cube_passes(scene):
+def test_a_file_that_was_never_saved_renders_and_says_that_its_cube_passes(scene, capfd):
     bpy.ops.wm.read_homefile(use_factory_startup=True)
     scene = bpy.context.scene
     scene.render.engine, scene.rtb.renderer, scene.rtb.samples = ENGINE, "tracer", 2
     scene.rtb.width, scene.rtb.height = 8, 6
     assert bpy.ops.render.render() == {"FINISHED"}
+    assert "until Blender ends" in capfd.readouterr().out
     kept = list((Path(bpy.app.tempdir) / "still/renderings/tracer").glob("*.exr"))
     assert len(kept) == 1
 
