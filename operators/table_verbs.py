@@ -14,13 +14,13 @@ class TableVerb:
 
     def execute(self, context):
         try:
-            said = self.edit(context)
+            with preview.suspended():  # a thousand cells need not be shown one by one
+                said = self.edit(context)
         except RecipeError as error:
             self.report({"ERROR"}, str(error))
             return {"CANCELLED"}
         if self.edits_scene:
             scene_edits.note()
-        preview.refresh()
         redraw_panels()
         if said:
             self.report({"INFO"}, said)

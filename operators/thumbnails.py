@@ -62,18 +62,26 @@ def fetch() -> None:
     """Ask the viewer for some of what is wanted, unless it is at it."""
     if _asked or not _wanted:
         return
-    newest = list(_wanted)[-SEEN:]
+    scene = next(reversed(_wanted)).scene
+    newest = [each for each in list(_wanted)[-SEEN:] if each.scene == scene]
     _asked[:] = newest[-AT_ONCE:]
     _wanted.clear()
     _wanted.update(dict.fromkeys(newest[:-AT_ONCE]))
-    try:
-        folder = str(recipe_folder(bpy.context.scene))
-    except RecipeError:
+    if not (folder := _folder_of(scene)):
         _arrived({})
         return
     names = [each.name for each in _asked]
     request = {"verb": "thumbnails", "folder": folder, "names": names, "side": SIDE}
     viewing.ask("thumbnails", request, _arrived)
+
+
+def _folder_of(number: int) -> str:
+    """Return the folder of a scene's recipe, empty where either has gone."""
+    scene = next((each for each in bpy.data.scenes if each.session_uid == number), None)
+    try:
+        return "" if scene is None else str(recipe_folder(scene))
+    except RecipeError:
+        return ""
 
 
 def forget() -> None:

@@ -142,3 +142,15 @@ def test_what_cannot_be_shown_is_said_and_the_rest_is_shown(family, seen, librar
     bpy.ops.rtb.preview_condition()
     assert "rid" in library("blender.preview").problems()[0]
     assert seen()[3] == 3
+
+
+def test_verbs_on_the_table_see_the_scene_without_it_and_show_it_once(family, seen, library, monkeypatch):
+    preview = library("blender.preview")
+    bpy.ops.rtb.preview_condition()
+    shown, show = [], preview.show
+    monkeypatch.setattr(preview, "show", lambda scene: shown.append(1) or show(scene))
+    bpy.ops.rtb.vary_property(home="lights", thing="Light", path="color", variable="tint")
+    assert family.rtb.conditions[0].cells[3].value == "1 1 1", "as it is, not as it is previewed"
+    bpy.ops.rtb.fill_range(variable="height", how="ADD", first=1, last=200, count=200)
+    assert len(shown) == 2
+    assert seen()[3] == 200
