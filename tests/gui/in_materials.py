@@ -182,17 +182,32 @@ def worlds(driver: Driver, folder: Path):
 
 
 def assets(driver: Driver):
-    """Show the Asset Browser, and append one of its materials."""
+    """Show the Asset Browser beside the viewport, drag a material on the cube, undo that; append another."""
     libraries = bpy.context.preferences.filepaths.asset_libraries
     ours = [each for each in libraries if each.name == "RenderToolbox"]
     driver.report["asset libraries"] = [each.name for each in ours]
-    area = driver.area("VIEW_3D")
-    area.ui_type = "ASSETS"
+    with bpy.context.temp_override(window=driver.window, area=driver.area("VIEW_3D")):
+        bpy.ops.screen.area_split(direction="VERTICAL", factor=0.5)
+    yield 0.5
+    views = [area for area in driver.window.screen.areas if area.type == "VIEW_3D"]
+    browser, viewport = sorted(views, key=lambda area: area.x)
+    browser.ui_type = "ASSETS"
     yield 1.0
-    area.spaces.active.params.asset_library_reference = "RenderToolbox"
-    area.tag_redraw()
+    browser.spaces.active.params.asset_library_reference = "RenderToolbox"
+    browser.tag_redraw()
     yield 3.0
     driver.photograph("assets")
+    tiles = next(region for region in browser.regions if region.type == "WINDOW")
+    middle = (viewport.x + viewport.width // 2, viewport.y + viewport.height // 2)
+    yield from driver.drag((tiles.x + 50, tiles.y + tiles.height - 60), middle)
+    yield 1.0
+    driver.photograph("assets-dragged")
+    shown = bpy.data.objects["Cube"].active_material
+    driver.report["dragged"] = [shown.name, shown.rtb.use_spectra, shown.rtb.reflectance]
+    yield from driver.move(*middle)
+    yield from driver.key("Z", ctrl=True)
+    yield 0.5
+    driver.report["dragged, undone"] = bpy.data.objects["Cube"].active_material.name
     file = Path(ours[0].path) / "spectral_materials.blend"
     with bpy.data.libraries.load(str(file), assets_only=True) as (there, wanted):
         driver.report["assets"] = len(there.materials)

@@ -18,6 +18,7 @@ PANELS = (
     "world-image",
     "world-sky",
     "assets",
+    "assets-dragged",
 )
 
 
@@ -57,6 +58,13 @@ def test_the_lamps_panel_tells_what_its_light_comes_to(report):
 def test_the_installed_zip_brings_its_materials_to_the_asset_browser(report):
     assert report["asset libraries"] == ["RenderToolbox"]
     assert report["assets"] > 70
+
+
+def test_a_shipped_material_is_dragged_on_the_cube_and_taken_back(report):
+    name, spectral, reflectance = report["dragged"]
+    assert spectral
+    assert reflectance == f"BabelColor Average/{name}"
+    assert report["dragged, undone"] == "Material"
 
 
 def test_a_material_saved_by_blender_4_is_what_it_was(report):
