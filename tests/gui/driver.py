@@ -15,9 +15,10 @@ from pathlib import Path
 
 import bpy
 import numpy as np
+from hands import Hands
 
 
-class Driver:
+class Driver(Hands):
     """
     One run of one window.
 
@@ -32,50 +33,12 @@ class Driver:
         self.report_file, self.pictures = report_file, pictures
         pictures.mkdir(parents=True, exist_ok=True)
 
-    @property
-    def window(self):
-        return bpy.context.window_manager.windows[0]
-
-    def area(self, kind: str):
-        """Return the largest area of a kind, or None."""
-        areas = [area for area in self.window.screen.areas if area.type == kind]
-        return max(areas, key=lambda area: area.width * area.height, default=None)
-
-    def region(self, area_kind: str, kind: str):
-        return next(region for region in self.area(area_kind).regions if region.type == kind)
-
-    def move(self, x: float, y: float):
-        """Move the pointer to a place in the window."""
-        for _ in range(2):
-            self.window.event_simulate(type="MOUSEMOVE", value="NOTHING", x=int(x), y=int(y))
-            yield 0.05
-
-    def drag(self, begin: tuple[float, float], end: tuple[float, float], shift: bool = False):
-        """Press the left button at a place in the window and let it go at another one."""
-        yield from self.move(*begin)
-        where = {"x": int(begin[0]), "y": int(begin[1]), "shift": shift}
-        self.window.event_simulate(type="LEFTMOUSE", value="PRESS", **where)
-        yield 0.05
-        for share in (0.3, 0.7, 1.0):
-            x, y = (int(a + share * (b - a)) for a, b in zip(begin, end, strict=True))
-            self.window.event_simulate(type="MOUSEMOVE", value="NOTHING", x=x, y=y, shift=shift)
-            yield 0.05
-        self.window.event_simulate(type="LEFTMOUSE", value="RELEASE", x=x, y=y, shift=shift)
-        yield 0.05
-
-    def click(self, x: float, y: float):
-        """Move there and click, as a person does."""
-        yield from self.move(x, y)
-        for value in ("PRESS", "RELEASE"):
-            self.window.event_simulate(type="LEFTMOUSE", value=value, x=int(x), y=int(y))
-            yield 0.05
-
-    def press(self, key: str, area_kind: str):
-        """Press a key with the pointer over an area."""
-        area = self.area(area_kind)
-        x, y = area.x + area.width // 2, area.y + area.height // 2
-        for kind, value in (("MOUSEMOVE", "NOTHING"), (key, "PRESS"), (key, "RELEASE")):
-            self.window.event_simulate(type=kind, value=value, x=x, y=y)
+    def until(self, happened, seconds: float = 60):
+        """Wait until something has happened, but no longer than that."""
+        deadline = time.monotonic() + seconds
+        while not happened():
+            if time.monotonic() > deadline:
+                raise TimeoutError(f"it did not happen within {seconds} s")
             yield 0.05
 
     def open_sidebar(self, tab: str):
@@ -86,20 +49,9 @@ class Driver:
         self.area("VIEW_3D").tag_redraw()
         yield 1.0
 
-    def scroll(self, area_kind: str, region_kind: str, clicks: int):
-        """Turn the mouse wheel over the middle of a region, down or up if negative."""
-        region = self.region(area_kind, region_kind)
-        x, y = region.x + region.width // 2, region.y + region.height // 2
-        self.window.event_simulate(type="MOUSEMOVE", value="NOTHING", x=x, y=y)
-        yield 0.1
-        for _ in range(abs(clicks)):
-            kind = "WHEELDOWNMOUSE" if clicks > 0 else "WHEELUPMOUSE"
-            self.window.event_simulate(type=kind, value="PRESS", x=x, y=y)
-            yield 0.05
-        yield 0.5
-
-    def choose_last_entry(self, x: int, y: int, picture: str):
+    def choose_last_entry(self, x: float, y: float, picture: str):
         """Right-click there, photograph the menu, and choose its last entry."""
+        x, y = int(x), int(y)
         moved = (("MOUSEMOVE", "NOTHING"),) * 2
         for kind, value in (*moved, ("RIGHTMOUSE", "PRESS"), ("RIGHTMOUSE", "RELEASE")):
             self.window.event_simulate(type=kind, value=value, x=x, y=y)
