@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from typing import Any
+
 import bpy
 
 
@@ -12,7 +14,7 @@ class Hands:
     def window(self):
         return bpy.context.window_manager.windows[0]
 
-    def area(self, kind: str):
+    def area(self, kind: str) -> Any:
         """Return the largest area of a kind, or None."""
         areas = [area for area in self.window.screen.areas if area.type == kind]
         return max(areas, key=lambda area: area.width * area.height, default=None)
