@@ -3,10 +3,12 @@
 from __future__ import annotations
 
 import json
+from collections.abc import Mapping
+from functools import partial
 
 import bpy
 
-from . import findings
+from . import findings, row_states, running
 from .child_verb import ChildVerb, Ended, is_under_way
 from .reading import ReadingVerb
 from .tell import tell
@@ -37,7 +39,8 @@ class RTB_OT_check_recipe(ReadingVerb, bpy.types.Operator):
 
     def go_on(self, context, folder):
         findings.note(scene_problems(context))
-        ChildVerb(["check", str(folder), "--json"], _take, of_file=True)
+        take = partial(_take, context.scene.session_uid, row_states.what_it_says(context.scene))
+        ChildVerb(["check", str(folder), "--json"], take, of_file=True)
         if bpy.app.background:
             self.report({"INFO"}, _counted(len(findings.errors)))
         return {"FINISHED"}
@@ -50,14 +53,18 @@ def scene_problems(context) -> list[str]:
     return scene_problems.scene_problems(context.scene)
 
 
-def _take(ended: Ended) -> None:
-    """Take in what the child has found."""
+def _take(scene: int, said: Mapping[str, row_states.Said], ended: Ended) -> None:
+    """Take in what the child has found of a scene as it was then."""
     found = [json.loads(line) for line in ended.lines if line.startswith("{")]
     findings.note(
         [each["sentence"] for each in found if each["problem"]]
         or (ended.complaints[-1:] if not found and ended.status else []),
         [each["sentence"] for each in found if not each["problem"] and "meaning" not in each],
     )
+    done = [each["done"] for each in found if "done" in each]
+    here = next((each for each in bpy.data.scenes if each.session_uid == scene), None)
+    if done and here is not None and running.batch is None:  # a batch knows better
+        row_states.settle(here, said, done[0])
     if not bpy.app.background:
         tell("WARNING" if findings.errors else "INFO", _counted(len(findings.errors)))
 

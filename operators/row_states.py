@@ -3,14 +3,14 @@ How each condition was left by the batches of this file, for the table to show.
 
 It lives here and not in Blender's data, so that undo does not touch it; a file that is saved takes it along.
 A row whose cells or options have been changed since is told from one that is as it was rendered. Whether an
-edit of something else concerns a row is settled by the next Render Recipe, which renders nothing twice.
+edit of something else concerns a row is settled by the next Check or Render Recipe.
 """
 
 from __future__ import annotations
 
 import json
 import zlib
-from collections.abc import Iterable
+from collections.abc import Iterable, Mapping
 from typing import NamedTuple
 
 from ..rtb_addon.blender.folders import recipe_name
@@ -52,15 +52,29 @@ _count = 0
 
 def begin(scene, names: Iterable[str] = ()) -> None:
     """Remember what the table says as a batch of some conditions, or of all of them, begins."""
-    global _scene
-    if scene.session_uid != _scene:
-        clear()
-    _scene = scene.session_uid
-    chosen, common = set(names), (_options(scene), _edits(scene))
+    _belong_to(scene)
+    said, chosen = what_it_says(scene), set(names)
     _begun.clear()
-    for number, row in enumerate(scene.rtb.conditions):
-        if not chosen or row_name(scene, row, number) in chosen:
-            _begun[row_name(scene, row, number)] = Said(cells_of(scene.rtb, row), *common)
+    _begun.update({name: each for name, each in said.items() if not chosen or name in chosen})
+
+
+def what_it_says(scene) -> dict[str, Said]:
+    """Return what a scene says now of each of its conditions."""
+    common = _options(scene), _edits(scene)
+    rows = enumerate(scene.rtb.conditions)
+    return {row_name(scene, row, number): Said(cells_of(scene.rtb, row), *common) for number, row in rows}
+
+
+def settle(scene, said: Mapping[str, Said], done: Iterable[str]) -> None:
+    """Take in which conditions, as the scene has said them, a batch would find done."""
+    _belong_to(scene)
+    found = set(done)
+    for name, each in said.items():
+        if name in found:
+            _states[name], _said[name] = "done", each
+            _reasons.pop(name, None)
+        elif _states.get(name) == "done":
+            _said[name] = Said(["changed"], [], each.edits)
 
 
 def take(condition: str, kind: str, reason: str = "") -> None:
@@ -165,6 +179,14 @@ def remember(scene) -> None:
         if row.rendered:
             name, cells, options = json.loads(row.rendered)
             _states[name], _said[name] = "done", Said(cells, options, (-1, 0))
+
+
+def _belong_to(scene) -> None:
+    """Forget what belongs to another scene."""
+    global _scene
+    if scene.session_uid != _scene:
+        clear()
+    _scene = scene.session_uid
 
 
 def _options(scene) -> list[object]:

@@ -1,7 +1,5 @@
 """One condition's rendering in the Image Editor, from the icon of its row, which also says how the row is."""
 
-from __future__ import annotations
-
 import bpy
 
 from ..rtb_addon.blender.folders import recipe_folder
@@ -13,7 +11,7 @@ SENTENCES = {
     "": "Not rendered yet",
     "running": "Being rendered",
     "done": "Rendered as it is now, click to show it in the Image Editor",
-    "unchecked": "Rendered, the scene has been edited since: Render Recipe finds out whether that matters",
+    "unchecked": "Rendered, the scene has been edited since: Check finds out whether that matters",
     "changed": "The row or the options have been changed since it was rendered",
     "failed": "Failed",
 }

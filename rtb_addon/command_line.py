@@ -12,7 +12,7 @@ from contextlib import suppress
 
 from . import renderers
 from .background import Event
-from .batch import render_recipe
+from .batch import render_recipe, up_to_date
 from .compare import COLUMNS, compare_renderers, table
 from .errors import RecipeError
 from .lifeline import watch_parent
@@ -66,7 +66,8 @@ def check(said: Namespace) -> int:
             print(finding.sentence, file=sys.stderr if finding.is_problem else sys.stdout)
     if said.json:
         words = section_words(recipe.conventions) | {"band_kind": recipe.options.band_kind}
-        print(json.dumps({"problem": False, "sentence": _meaning(recipe), "meaning": words}))
+        done = up_to_date(recipe)
+        print(json.dumps({"problem": False, "sentence": _meaning(recipe), "meaning": words, "done": done}))
     else:
         print(_meaning(recipe))
     return WRONG if any(finding.is_problem for finding in found) else 0

@@ -19,11 +19,11 @@ from ..worker import Task
 from .crew import Crew
 from .errands import Errands, dask_executor
 from .journal import Journal
-from .plan import chosen_conditions, plan
+from .plan import chosen_conditions, plan, up_to_date
 from .rendering import render_condition
 from .saving import SCRATCH
 
-__all__ = ["chosen_conditions", "render_condition", "render_recipe"]
+__all__ = ["chosen_conditions", "render_condition", "render_recipe", "up_to_date"]
 
 
 def render_recipe(

@@ -65,6 +65,19 @@ def chosen_conditions(recipe: Recipe, names: Sequence[str] | None) -> list[Condi
     return [condition for condition in recipe.conditions if asked is None or condition.name in asked]
 
 
+def up_to_date(recipe: Recipe) -> list[str]:
+    """Return the names of those conditions that a batch would find done."""
+    there = [each for each in recipe.conditions if recipe.rendering_file(each).is_file()]
+    return [each.name for each in there if _is_done(recipe, each)]
+
+
+def _is_done(recipe: Recipe, condition: Condition) -> bool:
+    try:
+        return found(recipe, condition, key_of(recipe, condition)) is not None
+    except RecipeError:
+        return False
+
+
 class _Problems:
     """Sentences, each once, with the conditions that they hold for."""
 

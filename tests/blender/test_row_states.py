@@ -205,3 +205,22 @@ def test_a_thousand_wishes_ask_for_few_pictures(thumbnails, family):
     known = [wish.name for wish in thumbnails._icons]
     assert len(known) == thumbnails.SEEN
     assert {"blue", "green"} < set(known)
+
+
+def test_a_check_settles_what_edits_have_left_open(thumbnails, states, family, tmp_path):
+    bpy.ops.rtb.render_recipe()
+    place, before = bpy.data.objects["Cube"].location, bpy.data.objects["Cube"].location[0]
+    place[0] = before + 1
+    bpy.context.view_layer.update()
+    assert shown(states) == ["unchecked"] * 2
+    bpy.ops.rtb.check_recipe()
+    assert shown(states) == ["changed"] * 2, "a cube that has moved is another picture"
+    place[0] = before
+    bpy.context.view_layer.update()
+    bpy.ops.rtb.check_recipe()
+    assert shown(states) == ["done"] * 2
+    bpy.ops.wm.save_mainfile()
+    bpy.ops.wm.open_mainfile(filepath=bpy.data.filepath)
+    assert shown(states) == ["unchecked"] * 2
+    bpy.ops.rtb.check_recipe()
+    assert shown(states) == ["done"] * 2

@@ -10,7 +10,7 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from rtb_addon.batch import render_condition, render_recipe
+from rtb_addon.batch import render_condition, render_recipe, up_to_date
 from rtb_addon.errors import RecipeError
 from rtb_addon.processes import runs
 from rtb_addon.recipe import Recipe, locks
@@ -104,7 +104,11 @@ def test_a_recipe_that_moved_is_still_done(write_family, tmp_path):
 
 
 def test_a_changed_row_renders_only_itself(write_family):
-    rendered(write_family({"a": "0.8", "b": "0.4"}))
+    recipe = write_family({"a": "0.8", "b": "0.4"})
+    assert up_to_date(recipe) == []
+    rendered(recipe)
+    assert up_to_date(recipe) == ["a", "b"]
+    assert up_to_date(write_family({"a": "0.8", "b": "0.5"})) == ["a"]
     assert rendered(write_family({"a": "0.8", "b": "0.5"})) == {"a": "cached", "b": "done"}
 
 

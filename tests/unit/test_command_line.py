@@ -149,6 +149,7 @@ def test_check_says_every_problem_and_what_the_numbers_mean(write_family, run):
     assert [each["problem"] for each in said].count(True) == 2
     assert said[-1]["meaning"] == {"units": "si", "handedness": "blender", "band_kind": "averaged"}
     assert "units si: a point light's numbers are W sr-1 nm-1" in said[-1]["sentence"]
+    assert said[-1]["done"] == []
     assert run("check", write_family({"a": "0.2"}, folder="good").folder)[0] == 0
 
 
