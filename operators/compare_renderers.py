@@ -1,7 +1,5 @@
 """How far two renderers' cubes of a scene's recipe lie apart."""
 
-from __future__ import annotations
-
 import json
 from functools import partial
 from pathlib import Path

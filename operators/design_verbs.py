@@ -1,7 +1,5 @@
 """What verbs that fill the table with an experimental design have in common."""
 
-from __future__ import annotations
-
 import bpy
 
 from ..rtb_addon.blender.table_texts import HOW, fill

@@ -1,7 +1,5 @@
 """Another property, or another value, for something that conditions set."""
 
-from __future__ import annotations
-
 import bpy
 
 from ..rtb_addon.blender import mapping_edits

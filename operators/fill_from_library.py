@@ -1,7 +1,5 @@
 """Rows from the spectra of the library."""
 
-from __future__ import annotations
-
 from itertools import compress
 
 import bpy

@@ -1,7 +1,5 @@
 """Every condition with an object and without it."""
 
-from __future__ import annotations
-
 import bpy
 
 from ..rtb_addon.blender import mapping_edits

@@ -1,7 +1,5 @@
 """Open a recipe: its folder or zip, or the files of RenderToolbox3 and 4."""
 
-from __future__ import annotations
-
 from pathlib import Path
 
 import bpy

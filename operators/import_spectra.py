@@ -1,7 +1,5 @@
 """Spectra from files into the user's library: by a file browser, or dropped on a window."""
 
-from __future__ import annotations
-
 from pathlib import Path
 
 import bpy

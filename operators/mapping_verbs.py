@@ -1,7 +1,5 @@
 """What verbs on the mappings of a scene have in common."""
 
-from __future__ import annotations
-
 import bpy
 
 from ..rtb_addon.errors import RecipeError

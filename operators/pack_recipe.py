@@ -1,7 +1,5 @@
 """A scene's recipe in one file."""
 
-from __future__ import annotations
-
 from pathlib import Path
 
 import bpy

@@ -1,7 +1,5 @@
 """Edit > Preferences > Add-ons: what holds for all files of this user."""
 
-from __future__ import annotations
-
 import bpy
 
 from ..rtb_addon.blender import renderer_choices

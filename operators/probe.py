@@ -1,7 +1,5 @@
 """Probe a pixel or a box of a rendering and keep that as a pin."""
 
-from __future__ import annotations
-
 import bpy
 from bpy.props import BoolProperty, IntVectorProperty, StringProperty
 

@@ -1,7 +1,5 @@
 """What a finding speaks of, selected and shown."""
 
-from __future__ import annotations
-
 import bpy
 
 from ..rtb_addon.errors import RecipeError

@@ -1,7 +1,5 @@
 """What verbs that say a spectrum have in common."""
 
-from __future__ import annotations
-
 import bpy
 
 from ..rtb_addon.blender import preview

@@ -1,7 +1,5 @@
 """A spectrum drawn as a curve, by Blender's own widget for curves."""
 
-from __future__ import annotations
-
 import bpy
 
 from ..rtb_addon.blender.fields import FIELDS, owner_of, typed_in

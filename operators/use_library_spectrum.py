@@ -1,7 +1,5 @@
 """A spectrum of the library, found by its name, with its curve beside it."""
 
-from __future__ import annotations
-
 import bpy
 
 from ..rtb_addon.blender import curve_previews

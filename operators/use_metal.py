@@ -1,7 +1,5 @@
 """A metal by its name: both of its measured indices at once."""
 
-from __future__ import annotations
-
 import bpy
 
 from ..rtb_addon.blender.fields import owner_of

@@ -1,7 +1,5 @@
 """Give a material, a lamp or the world spectra of its own."""
 
-from __future__ import annotations
-
 import bpy
 
 from ..rtb_addon.blender.fields import active

@@ -1,7 +1,5 @@
 """A spectrum as numbers in a table."""
 
-from __future__ import annotations
-
 import bpy
 
 from ..rtb_addon.blender.fields import FIELDS, owner_of, typed_in

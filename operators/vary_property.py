@@ -1,7 +1,5 @@
 """Any property of the file becomes a variable of the conditions."""
 
-from __future__ import annotations
-
 import bpy
 
 from ..rtb_addon.blender import mapping_edits

@@ -1,7 +1,5 @@
 """How renderings are looked at, and pins in them: of the window, hence neither saved nor undone."""
 
-from __future__ import annotations
-
 import bpy
 from bpy.props import (
     BoolProperty,

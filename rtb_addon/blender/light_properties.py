@@ -1,7 +1,5 @@
 """What RenderToolbox keeps of what shines: lamps, the world, meshes that emit."""
 
-from __future__ import annotations
-
 import math
 
 import bpy

@@ -1,7 +1,5 @@
 """What RenderToolbox keeps of a material: a property for each parameter of the vocabulary, and textures."""
 
-from __future__ import annotations
-
 import bpy
 
 from ..scene.vocabulary import MATERIALS, Parameter

@@ -1,7 +1,5 @@
 """What RenderToolbox keeps in a .blend file: real properties of scenes, materials, lamps, worlds, objects."""
 
-from __future__ import annotations
-
 import atexit
 from collections.abc import Iterable, Sequence
 

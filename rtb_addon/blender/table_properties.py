@@ -1,7 +1,5 @@
 """What a scene keeps of its recipe's table and mappings: variables, conditions, properties that vary."""
 
-from __future__ import annotations
-
 import bpy
 from bpy import props
 
