@@ -115,6 +115,31 @@ def test_the_sun_stands_where_its_elevation_and_azimuth_say(scene, lamp, resolve
     np.testing.assert_allclose(found.to_world[:3, 2], towards, atol=1e-6)
 
 
+def test_a_sky_of_spectra_keeps_its_bands_through_saving_opening_and_undo(scene, box, library, tmp_path):
+    radiance = np.broadcast_to([1.0, 2.0, 0.5], (4, 8, 3))
+    rtb.SpectralImage(radiance, rtb.Bands.regular(440, 110, 3)).save(tmp_path / "sky.exr")
+    box(location=(0, 0, 50))  # behind the camera
+    world = scene.world = bpy.data.worlds.new("Sky")
+    world.rtb.use_spectra, world.rtb.kind, world.rtb.amount = True, "IMAGE", 1.5
+    world.rtb.spectrum, world.rtb.image = "1", bpy.data.images.load(str(tmp_path / "sky.exr"))
+    bpy.ops.wm.save_as_mainfile(filepath=str(tmp_path / "sky.blend"), relative_remap=True)
+    bpy.ops.wm.open_mainfile(filepath=str(tmp_path / "sky.blend"))
+    scene, world = bpy.context.scene, bpy.data.worlds["Sky"]
+    bpy.ops.ed.undo_push(message="before")
+    world.rtb.image = None
+    bpy.ops.ed.undo_push(message="after")
+    bpy.ops.ed.undo()
+    scene, settings = bpy.context.scene, bpy.context.scene.rtb
+    assert bpy.data.worlds["Sky"].rtb.image is not None
+    settings.bands_start, settings.bands_step, settings.bands_count = 440, 110, 3
+    settings.band_kind, settings.samples = "centre", 4
+    made = library("blender").read_recipe(scene).save(tmp_path / "recipe")
+    for renderer in ("tracer", "mitsuba"):
+        (rendering,) = rtb.execute_recipe(made, renderer=renderer)
+        seen = rendering.image.radiance.reshape(-1, 3)
+        np.testing.assert_allclose(seen, np.broadcast_to([1.5, 3.0, 0.75], seen.shape), rtol=1e-5)
+
+
 def test_an_image_that_is_missing_is_said(scene, sky, lamp, read):
     lamp()
     sky.rtb.use_spectra, sky.rtb.kind = True, "IMAGE"
