@@ -15,11 +15,11 @@ import bpy
 import bpy.utils.previews
 
 from ..rtb_addon.blender.folders import recipe_folder
+from ..rtb_addon.blender.icons import SIDE, new_icon
 from ..rtb_addon.blender.redrawing import redraw_panels
 from ..rtb_addon.errors import RecipeError
 from . import viewing
 
-SIDE = 32  # of an icon [pixels]
 MOST = 256  # icons that are kept
 AT_ONCE = 4  # that the viewer is asked for, so that nobody else waits long for it
 SEEN = 32  # rows that may be seen together; wishes of others, who were scrolled by, are dropped
@@ -112,14 +112,8 @@ def _made(wish: Wish, words: str) -> tuple[int, int]:
 
     assert _pictures is not None
     pixels = np.frombuffer(base64.b64decode(words), np.uint8).astype(np.float32) / 255
-    numbers = []
-    for name, share in zip(_names(wish), (1.0, DIM), strict=True):
-        picture = _pictures.new(name)
-        picture.image_size = picture.icon_size = SIDE, SIDE
-        picture.icon_pixels_float.foreach_set(pixels * share)
-        picture.image_pixels_float.foreach_set(pixels * share)
-        numbers.append(picture.icon_id)
-    return numbers[0], numbers[1]
+    shown, dim = _names(wish)
+    return new_icon(_pictures, shown, pixels), new_icon(_pictures, dim, pixels * DIM)
 
 
 def _names(wish: Wish) -> tuple[str, str]:

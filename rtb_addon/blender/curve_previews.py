@@ -14,11 +14,11 @@ import bpy
 import bpy.utils.previews
 
 from ..errors import RecipeError
+from .icons import SIDE, new_icon
 from .own_spectra import heard, own_folders
 from .redrawing import redraw_panels
 
 MOST = 128  # pictures that are kept
-ICON = 32  # side of an icon [pixels]
 UNIT = 20  # of Blender's layouts [pixels at scale 1]
 BORDER = 4  # that Blender leaves around a picture [pixels at scale 1]
 
@@ -93,11 +93,7 @@ def icons(names: Sequence[str], shines: bool) -> list[int]:
         except RecipeError:
             spectrum = library.find("E").scaled(0.0)  # a file of the user's own that is none
         colour = swatches.light_colour(spectrum) if shines else swatches.surface_colour(spectrum, daylight)
-        preview = _thumbnails.new(key)
-        preview.image_size = preview.icon_size = ICON, ICON
-        pixels = curves.curve_icon(spectrum, ICON, colour).ravel()
-        preview.icon_pixels_float.foreach_set(pixels)
-        preview.image_pixels_float.foreach_set(pixels)
+        new_icon(_thumbnails, key, curves.curve_icon(spectrum, SIDE, colour).ravel())
     return [_thumbnails[f"{name} {shines}"].icon_id for name in names]
 
 
