@@ -3,7 +3,7 @@
 import bpy
 from bpy.utils import register_classes_factory
 
-from ..rtb_addon.blender import appended, asset_library, curve_previews, light_words
+from ..rtb_addon.blender import asset_library, curve_previews, light_words, typed_paths
 from . import image_editor, material_presets, menus, progress, spectrum_menus
 from .condition_menus import RTB_MT_conditions, RTB_MT_designs, RTB_MT_variable
 from .conditions import RTB_PT_conditions, RTB_UL_conditions
@@ -42,7 +42,7 @@ def register() -> None:
     # Of the window and not of the scene: which columns are shown is neither saved nor undone.
     bpy.types.WindowManager.rtb_first_variable = bpy.props.IntProperty(options={"HIDDEN"}, min=0)
     curve_previews.register()
-    appended.register()
+    typed_paths.register()
     asset_library.register()
     material_presets.register()
     menus.register()
@@ -59,7 +59,7 @@ def unregister() -> None:
     menus.unregister()
     material_presets.unregister()
     asset_library.unregister()
-    appended.unregister()
+    typed_paths.unregister()
     curve_previews.unregister()
     light_words.unregister()
     del bpy.types.WindowManager.rtb_first_variable

@@ -1,4 +1,4 @@
-"""Things with spectra that come from another .blend, appended or linked: they mean what they meant there."""
+"""Spectra in files, typed: found again where things, or the whole .blend, come to another folder."""
 
 from pathlib import Path
 
@@ -84,4 +84,30 @@ def test_what_is_linked_stays_as_it_is_in_its_own_file(bring):
 
 @pytest.mark.parametrize("text", ["BabelColor Average/blue", "(paint)", "400:0.2 700:0.8", "0.5", "/a/b.spd"])
 def test_what_is_no_relative_path_stays(text, library, tmp_path):
-    assert library("blender.appended").moved(text, tmp_path) == text
+    assert library("blender.typed_paths").moved(text, tmp_path, tmp_path / "other") == text
+
+
+def test_a_file_saved_in_another_folder_still_renders_the_same(studio, library, tmp_path):
+    read_recipe = library("blender").read_recipe
+    before = read_recipe(bpy.context.scene).resources
+    (tmp_path / "copy/of").mkdir(parents=True)
+    bpy.ops.wm.save_as_mainfile(filepath=str(tmp_path / "copy/of/studio.blend"))
+    assert bpy.data.lights["Light"].rtb.spectrum == "//../../studio/lamp.spd"
+    bpy.ops.wm.open_mainfile(filepath=str(tmp_path / "copy/of/studio.blend"))
+    assert read_recipe(bpy.context.scene).resources == before
+
+
+def test_a_copy_names_its_files_from_where_it_is_and_the_open_file_stays(studio, tmp_path):
+    (tmp_path / "copy").mkdir()
+    bpy.ops.wm.save_as_mainfile(filepath=str(tmp_path / "copy/copy.blend"), copy=True)
+    assert bpy.data.lights["Light"].rtb.spectrum == "//lamp.spd"
+    bpy.ops.wm.open_mainfile(filepath=str(tmp_path / "copy/copy.blend"))
+    assert bpy.data.lights["Light"].rtb.spectrum == "//../studio/lamp.spd"
+
+
+def test_files_that_somebody_has_copied_along_are_those_that_count(studio, tmp_path):
+    (tmp_path / "copy").mkdir()
+    (tmp_path / "copy/lamp.spd").write_bytes(LAMP)
+    bpy.ops.wm.save_as_mainfile(filepath=str(tmp_path / "copy/studio.blend"))
+    assert bpy.data.lights["Light"].rtb.spectrum == "//lamp.spd"
+    assert bpy.data.materials["Inside"].rtb.reflectance == "//../studio/paint.spd"
