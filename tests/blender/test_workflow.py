@@ -121,7 +121,11 @@ def test_comparing_says_what_is_to_be_rendered_first(scene, findings):
     assert "blue is not rendered with mitsuba yet" in sentence_of(bpy.ops.rtb.compare_renderers)
 
 
-def test_a_button_a_script_and_the_command_line_render_the_same_cubes_bit_for_bit(scene, module, tmp_path):
+@pytest.mark.parametrize("renderer", ["tracer", "mitsuba"])
+def test_a_button_a_script_and_the_command_line_render_the_same_cubes_bit_for_bit(
+    scene, module, tmp_path, renderer
+):
+    scene.rtb.renderer = renderer
     bpy.ops.rtb.render_recipe()
     library = module("rtb_addon.blender")
     scripted = library.read_recipe(scene).save(tmp_path / "scripted")
@@ -132,7 +136,7 @@ def test_a_button_a_script_and_the_command_line_render_the_same_cubes_bit_for_bi
     read = module("rtb_addon.spectral_image").SpectralImage.load
     for name in ("blue", "green"):
         clicked, *others = (
-            read(folder / "renderings/tracer" / f"{name}.exr").radiance
+            read(folder / "renderings" / renderer / f"{name}.exr").radiance
             for folder in (tmp_path / "rtb/cube", scripted, typed)
         )
         for other in others:

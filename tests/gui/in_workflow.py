@@ -1,5 +1,6 @@
 """Run in a real window: any property varies, is previewed, checked, listed and rendered, photographed."""
 
+import shutil
 import sys
 from pathlib import Path
 
@@ -7,7 +8,7 @@ import bpy
 
 sys.path.insert(0, str(Path(__file__).parent))  # Blender does not look beside its scripts
 from driver import Driver
-from scene import extension, make_recipe
+from scene import EXTENSION, extension, make_recipe
 
 LAMP = "Light"
 
@@ -17,6 +18,7 @@ def workflow(driver: Driver, folder: Path):
     yield from render_unsaved(driver)
     make_recipe(folder, 3, "tracer", samples=32, size=(64, 48))
     yield from search(driver)
+    yield from look_at_preferences(driver)
     yield from driver.open_sidebar("Item")
     yield from vary_by_click(driver)
     yield from driver.open_sidebar("RenderToolbox")
@@ -54,6 +56,26 @@ def search(driver: Driver):
     yield from driver.key("RET")
     yield from until_checked(driver)
     driver.report["checked by name"] = list(extension("operators.findings").remarks)
+
+
+def look_at_preferences(driver: Driver):
+    """Photograph the extension's preferences, once their Test has found the renderers."""
+    area, manager = driver.area("VIEW_3D"), bpy.context.window_manager
+    area.type, bpy.context.preferences.active_section = "PREFERENCES", "ADDONS"
+    manager.addon_search = "RenderToolbox"
+    yield 0.6
+    bpy.ops.preferences.addon_expand(module=EXTENSION)
+    area.tag_redraw()
+    yield 0.6
+    yield from driver.find("rtb.test_renderers", "PREFERENCES", "WINDOW", down=437)
+    yield from driver.click(driver.x, driver.y)
+    found = extension("operators.renderers_found").found
+    yield from driver.until(lambda: found)
+    yield 0.5
+    driver.photograph("preferences")
+    driver.report["renderers"] = {name: each.version is not None for name, each in found.items()}
+    area.type = "VIEW_3D"
+    yield 0.6
 
 
 def vary_by_click(driver: Driver):
@@ -149,16 +171,31 @@ def until_checked(driver: Driver):
     yield 0.6
 
 
+def render_typed(driver: Driver, folder: Path):
+    """Render the same condition by the command line and from a script, in folders of their own."""
+    typed, scripted = folder.with_name("typed"), folder.with_name("scripted")
+    shutil.copytree(folder, typed, ignore=shutil.ignore_patterns("renderings", "images", "scenes"))
+    child = extension("rtb_addon.background").start_child(["render", str(typed), "--conditions", "green"])
+    extension("rtb_addon.blender").read_recipe(bpy.context.scene).save(scripted)
+    yield from driver.until(lambda: child.poll() is not None)
+    child.communicate()
+    batch = extension("operators.child_batch").ChildBatch(scripted, ["green"])
+    yield from driver.until(lambda: batch.take() and batch.ended)
+    driver.report["cubes"] = [str(each / "renderings/tracer/green.exr") for each in (folder, typed, scripted)]
+
+
 def render(driver: Driver):
     """Render the active condition alone, then all of them, photographed in the middle."""
     settings, running = bpy.context.scene.rtb, extension("operators.running")
     settings.active_condition = 1
-    with bpy.context.temp_override(window=driver.window):
-        bpy.ops.rtb.render_condition()
-    while running.batch is not None:
-        yield 0.1
-    cubes = Path(bpy.path.abspath("//rtb/cube/renderings/tracer"))
+    yield from driver.find("rtb.render_condition", "VIEW_3D", "UI", down=143, across=0.25)
+    yield from driver.click(driver.x, driver.y)
+    yield from driver.until(lambda: running.batch is not None)
+    yield from driver.until(lambda: running.batch is None)
+    folder = Path(bpy.path.abspath("//rtb/cube"))
+    cubes = folder / "renderings/tracer"
     driver.report["rendered alone"] = sorted(each.stem for each in cubes.glob("*.exr"))
+    yield from render_typed(driver, folder)
     settings.samples = 2000
     with bpy.context.temp_override(window=driver.window):
         bpy.ops.rtb.render_recipe()

@@ -1,12 +1,16 @@
 """The workflow in a real window: what varies, is previewed, checked, listed and rendered, photographed."""
 
+import numpy as np
 import pytest
+
+from rtb_addon.spectral_image import SpectralImage
 
 SCRIPT = "in_workflow.py"
 WINDOW = True
 PANELS = (
     "workflow-unsaved",
     "workflow-search",
+    "preferences",
     "workflow-vary",
     "workflow-preview",
     "workflow-mappings",
@@ -54,6 +58,17 @@ def test_check_finds_everything_at_once_and_knows_what_each_finding_is_about(rep
 
 def test_one_condition_is_rendered_alone(report):
     assert report["rendered alone"] == ["green"]
+
+
+def test_a_click_the_command_line_and_a_script_render_the_same_cube_bit_for_bit(report):
+    clicked, *others = (SpectralImage.load(file).radiance for file in report["cubes"])
+    assert clicked.any()
+    for other in others:
+        np.testing.assert_array_equal(clicked, other)
+
+
+def test_the_preferences_test_what_the_zip_brought(report):
+    assert report["renderers"] == {"mitsuba": True, "sphere": True, "tracer": True}
 
 
 def test_conditions_under_way_have_bars_of_their_own(report):
