@@ -95,7 +95,10 @@ class ReadingVerb:
             self.report({"INFO"}, "Save the file first: its recipe goes beside it")
             bpy.ops.wm.save_as_mainfile("INVOKE_DEFAULT")
             return {"CANCELLED"}
-        if len(context.scene.rtb.conditions) < 2:
+        if now is not None:
+            self.report({"INFO"}, "The scene is being read: wait for it, or stop it with Esc")
+            return {"CANCELLED"}
+        if len(context.scene.rtb.conditions) < 2 or context.window is None:
             return self.execute(context)
         now = Reading(context.scene, self.folder)
         self._timer = context.window_manager.event_timer_add(INTERVAL, window=context.window)
@@ -106,7 +109,7 @@ class ReadingVerb:
     def modal(self, context, event):
         if event.type == "ESC":
             self.cancel(context)
-            self.report({"INFO"}, "Stopped, nothing was written")
+            self.report({"INFO"}, "Stopped reading the scene, which is as it was")
             return {"CANCELLED"}
         if event.type != "TIMER":
             return {"RUNNING_MODAL"}  # nothing may change meanwhile
