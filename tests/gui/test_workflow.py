@@ -1,5 +1,7 @@
 """The workflow in a real window: what varies, is previewed, checked, listed and rendered, photographed."""
 
+from pathlib import Path
+
 import numpy as np
 import pytest
 
@@ -61,7 +63,7 @@ def test_one_condition_is_rendered_alone(report):
 
 
 def test_a_click_the_command_line_and_a_script_render_the_same_cube_bit_for_bit(report):
-    clicked, *others = (SpectralImage.load(file).radiance for file in report["cubes"])
+    clicked, *others = (SpectralImage.load(Path(file)).radiance for file in report["cubes"])
     assert clicked.any()
     for other in others:
         np.testing.assert_array_equal(clicked, other)
