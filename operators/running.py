@@ -12,7 +12,7 @@ from typing import TYPE_CHECKING
 
 import bpy
 
-from . import child_verb, findings, montages, row_states, viewing
+from . import child_verb, findings, following, montages, row_states, viewing
 from .tell import tell
 
 if TYPE_CHECKING:
@@ -59,7 +59,7 @@ def _look() -> float | None:
         return None
     if batch.take():
         _redraw()
-        viewing.follow(batch)
+        following.follow(batch)
     if not batch.ended:
         return INTERVAL
     _conclude(batch)
@@ -72,7 +72,7 @@ def _conclude(ended: ChildBatch) -> None:
     batch = None
     row_states.end()
     findings.note(ended.failures, ended.warnings)
-    viewing.followed_to_the_end()
+    viewing.redraw()
     if bpy.app.background and ended.montage is not None and ended.montage.is_file():
         montages.load(ended.montage, ended.montage.stem)
     tell(*_outcome(ended))

@@ -32,7 +32,6 @@ sentence = ""  # why the last wish could not be met
 _tiles: Tiles | None = None
 _child: ViewerChild | None = None
 _opening = False
-_followed: tuple[Path, int] | None = None
 
 
 def show(folder: Path, open_editor: bool = False) -> None:
@@ -50,32 +49,10 @@ def show(folder: Path, open_editor: bool = False) -> None:
     ask("look", {**request, **view.request()}, _arrived)
 
 
-def follow(batch) -> None:
-    """Show what a batch has finished since last time; its first rendering opens an Image Editor."""
-    global _followed
+def wake() -> None:
+    """Start the viewer ahead of the first wish, unless it is there."""
     if _child is None:
-        ask("wake", {"verb": "wake"}, lambda answer: None)  # so that the first picture comes at once
-    if batch.finished and (before := _followed) != (batch.folder, batch.finished):
-        _followed = batch.folder, batch.finished
-        if before is None:
-            _begin_with(batch)
-        show(batch.folder, open_editor=before is None)
-    redraw()
-
-
-def _begin_with(batch) -> None:
-    """Let the view be of what a batch renders, whatever was looked at last."""
-    view = bpy.context.window_manager.rtb_view
-    view.renderer = "recipe"
-    if batch.total > 1:
-        view.condition = ""
-
-
-def followed_to_the_end() -> None:
-    """The next batch is another one."""
-    global _followed
-    _followed = None
-    redraw()
+        ask("wake", {"verb": "wake"}, lambda answer: None)
 
 
 def redraw() -> None:
@@ -146,8 +123,8 @@ def shows(scene) -> bool:
 
 def forget() -> None:
     """End the viewer and forget what it showed."""
-    global seen, sentence, _tiles, _child, _opening, _followed
-    seen, sentence, _tiles, _opening, _followed = {}, "", None, False, None
+    global seen, sentence, _tiles, _child, _opening
+    seen, sentence, _tiles, _opening = {}, "", None, False
     if _child is not None:
         _child.stop()
         _child = None

@@ -18,12 +18,18 @@ TOOL = "rtb.probe_tool"
 def looking(driver: Driver, folder: Path):
     """Render with no Image Editor open, then look at what came of it in every way."""
     make_recipe(folder, 6, "tracer", samples=200, size=(160, 120))
+    bpy.context.scene.rtb.layers = {"standard_error"}
+    bpy.ops.ed.undo_push(message="before")
+    bpy.data.objects["Cube"].location.z = 0.01
+    bpy.ops.ed.undo_push(message="moved")
     yield 0.5
     yield from watch_montage_fill(driver)
+    yield from undo_beside(driver)
     yield from open_sidebar(driver)
+    yield from slide(driver)
     yield from look_in_every_way(driver)
     yield from probe_by_hand(driver)
-    yield from export(driver, folder)
+    yield from copy_by_hand(driver, folder)
     driver.report["heavy modules"] = sorted(HEAVY & set(sys.modules))
 
 
@@ -38,8 +44,8 @@ def watch_montage_fill(driver: Driver):
         shown = len(viewing.seen["there"]) if viewing.seen else 0
         if shown and (not filled or filled[-1] != shown):
             filled.append(shown)
-            if shown == 3:
-                yield 0.5
+            if len(filled) == 2:
+                yield 0.3
                 driver.photograph("montage-filling")
         yield 0.02
     yield 1.5
@@ -79,6 +85,32 @@ def open_sidebar(driver: Driver):
     driver.photograph("rendering-panel")
 
 
+def undo_beside(driver: Driver):
+    """Undo, by its keys, what was done before the batch began, while the montage is shown."""
+    area = driver.area("VIEW_3D")
+    yield from driver.move(area.x + area.width // 2, area.y + area.height // 2)
+    for value in ("PRESS", "RELEASE"):
+        driver.window.event_simulate(type="Z", value=value, x=driver.x, y=driver.y, ctrl=True)
+        yield 0.3
+    image = driver.area("IMAGE_EDITOR").spaces.active.image
+    moved = bpy.data.objects["Cube"].location.z
+    driver.report["after undo"] = [moved, None if image is None else [image.name, list(image.size)]]
+
+
+def slide(driver: Driver):
+    """Choose the view of one band and drag its slider."""
+    view, viewing = bpy.context.window_manager.rtb_view, extension("operators.viewing")
+    view.kind = "wavelength"
+    yield from answered(viewing)
+    yield from driver.find("rtb_view.wavelength", "IMAGE_EDITOR", "UI", down=100)
+    before = [view.wavelength, mean_colour(driver)]
+    yield from driver.drag((driver.x, driver.y), (driver.x + 40, driver.y))
+    yield from answered(viewing)
+    driver.report["slid"] = [before, [view.wavelength, mean_colour(driver)]]
+    view.wavelength = 550.0
+    yield from answered(viewing)
+
+
 def fit(driver: Driver) -> None:
     """Show the whole picture."""
     region = driver.region("IMAGE_EDITOR", "WINDOW")
@@ -90,13 +122,15 @@ def look_in_every_way(driver: Driver):
     """Photograph each view, and note what it shows."""
     view, viewing = bpy.context.window_manager.rtb_view, extension("operators.viewing")
     found = driver.report.setdefault("views", {})
-    for kind in ("wavelength", "luminance", "difference"):
+    for kind in ("wavelength", "luminance", "difference", "error"):
         if kind == "difference":
             view.other = "red"
         view.kind = kind
         yield from answered(viewing)
         found[kind] = [viewing.sentence, viewing.seen["full"], mean_colour(driver)]
         driver.photograph(f"view-{kind}")
+    view.kind = "difference"
+    yield from answered(viewing)
     view.auto_scale = False
     found["scale taken over"] = [view.full_radiance, viewing.seen["full"]]
     view.kind, view.condition, view.auto_scale = "srgb", "blue", True
@@ -110,6 +144,20 @@ def look_in_every_way(driver: Driver):
     yield from answered(viewing)
     fit(driver)
     yield 0.5
+    yield from hide_names(driver)
+
+
+def hide_names(driver: Driver):
+    """Look for a name at the lower left corner of its tile, then hide what lies over the picture."""
+    overlay, found = driver.area("IMAGE_EDITOR").spaces.active.overlay, []
+    x, y = (int(each) for each in place(driver, "green", 0.0, 1.0))
+    for shown in (True, False):
+        overlay.show_overlays = shown
+        yield 0.5
+        picture = driver.photograph("names")[y + 2 : y + 18, x + 2 : x + 42]
+        found.append(int((picture.min(axis=2) > 180).sum()))
+    overlay.show_overlays = True
+    driver.report["bright pixels of a name"] = found
 
 
 def answered(viewing):
@@ -129,9 +177,10 @@ def mean_colour(driver: Driver) -> list[float]:
 
 
 def probe_by_hand(driver: Driver):
-    """Choose the tool, point, click, drag, and drag with Shift."""
-    with bpy.context.temp_override(window=driver.window, area=driver.area("IMAGE_EDITOR")):
-        bpy.ops.wm.tool_set_by_id(name=TOOL)
+    """Choose the tool, point, drag, and drag with Shift."""
+    yield from driver.find(TOOL, "IMAGE_EDITOR", "TOOLS", down=100, across=0.5)
+    yield from driver.click(driver.x, driver.y)
+    driver.report["tool"] = bpy.context.workspace.tools.from_space_image_mode("VIEW").idname
     space = driver.area("IMAGE_EDITOR").spaces.active
     space.show_region_ui = False  # it covers half of the renderings
     yield 0.5
@@ -171,13 +220,16 @@ def place(driver: Driver, condition: str, across: float, down: float) -> tuple[f
     return region.x + seen[0], region.y + seen[1]
 
 
-def export(driver: Driver, folder: Path):
-    """Copy the pins and write them to a file."""
-    bpy.ops.rtb.copy_pins()
+def copy_by_hand(driver: Driver, folder: Path):
+    """Copy the pins by their button, and write them to a file."""
+    yield from driver.find("rtb.copy_pins", "IMAGE_EDITOR", "UI", down=330, across=0.4)
+    bpy.context.window_manager.clipboard = ""
+    yield from driver.click(driver.x, driver.y)
+    yield 0.3
     driver.report["clipboard"] = bpy.context.window_manager.clipboard
     bpy.ops.rtb.export_pins(filepath=str(folder / "pins.csv"))
     driver.report["file"] = (folder / "pins.csv").read_text()
-    yield 0.1
+    driver.report["cubes"] = str(folder / "rtb/cube/renderings/tracer")
 
 
 if __name__ == "__main__":
