@@ -20,7 +20,7 @@ from ..rtb_addon.errors import RecipeError
 from . import findings
 
 INTERVAL = 0.01  # [s] between two turns
-TURN = 0.02  # [s] that a turn may take, or one condition where that takes longer
+TURN = 0.03  # [s] after which a turn begins no other condition
 
 now: Reading | None = None  # the scene that is being read, for panels to show
 
