@@ -2,6 +2,8 @@
 
 import bpy
 
+from ..rtb_addon.blender import light_words
+from .light_numbers import draw_told
 from .spectrum_field import draw_spectrum
 
 
@@ -27,6 +29,8 @@ class RTB_PT_spectral_emission(bpy.types.Panel):
         layout.use_property_split = True
         layout.use_property_decorate = False
         layout.active = settings.emits
-        draw_spectrum(layout, context, settings, "EMISSION")
+        wrong = draw_spectrum(layout, context, settings, "EMISSION")
         layout.prop(settings, "emission")
         layout.prop(settings, "amount")
+        if settings.emits and not wrong:
+            draw_told(layout, context, light_words.told_surface(settings, settings.emission, context.scene))

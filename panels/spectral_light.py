@@ -3,8 +3,7 @@
 import bpy
 
 from ..rtb_addon.blender import light_words
-from .numbers import draw_numbers
-from .sentences import draw_sentences
+from .light_numbers import draw_told
 from .spectra import SpectralPanel
 from .spectrum_field import draw_spectrum
 
@@ -28,12 +27,3 @@ class RTB_PT_spectral_light(SpectralPanel, bpy.types.Panel):
             layout.prop(settings, "distance")
         if not wrong:
             draw_told(layout, context, light_words.told(context.light, context.scene))
-
-
-def draw_told(layout, context, found) -> None:
-    """Draw what is known of a light, or why there is none."""
-    draw_sentences(layout, [found.sentence] if found.sentence else [], context.region.width, alert=True)
-    column = layout.column()
-    column.active = False
-    # As many rows as there will be: a panel that grows by itself lies over the next one for a while.
-    draw_numbers(column, found.rows or [("", "")] * light_words.ROWS * (not found.sentence))

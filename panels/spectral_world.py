@@ -2,6 +2,8 @@
 
 import bpy
 
+from ..rtb_addon.blender import light_words
+from .light_numbers import draw_told
 from .renderer_words import draw_renderers
 from .sentences import draw_sentences
 from .spectra import SpectralPanel
@@ -34,8 +36,11 @@ class RTB_PT_spectral_world(SpectralPanel, bpy.types.Panel):
             for name in ("turbidity", "elevation", "azimuth"):
                 layout.prop(settings, name)
         else:
-            draw_spectrum(layout, context, settings, "WORLD")
+            wrong = draw_spectrum(layout, context, settings, "WORLD")
             if settings.kind == "CONSTANT":
                 layout.prop(settings, "measure")
             layout.prop(settings, "amount")
+            if settings.kind == "CONSTANT" and not wrong:
+                told = light_words.told_surface(settings, settings.measure, context.scene)
+                draw_told(layout, context, told)
         draw_renderers(layout, context, FEATURES[settings.kind])

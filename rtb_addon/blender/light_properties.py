@@ -41,7 +41,7 @@ class RTB_PG_light(bpy.types.PropertyGroup):
     spectrum: StringProperty(
         name="Spectrum", description=f"Shape of the spectrum, scaled to the power: {TYPED}", default="D65"
     )
-    measure: EnumProperty(name="Amount As", items=MEASURES, default="WATTS")
+    measure: EnumProperty(name="Measure", items=MEASURES, default="WATTS")
     amount: FloatProperty(
         name="Amount",
         description="In the unit beside it; Blender's own power then counts no more",
@@ -61,7 +61,7 @@ class RTB_PG_world(bpy.types.PropertyGroup):
     spectrum: StringProperty(
         name="Spectrum", description=f"Radiance, in W / (sr m² nm): {TYPED}", default="1"
     )
-    measure: EnumProperty(name="Amount As", items=SKY_MEASURES, default="RADIANCE")
+    measure: EnumProperty(name="Measure", items=SKY_MEASURES, default="RADIANCE")
     amount: FloatProperty(name="Amount", description="Factor of the spectrum", default=1.0, min=0.0)
     image: PointerProperty(
         type=bpy.types.Image,
@@ -94,7 +94,7 @@ class RTB_PG_object(bpy.types.PropertyGroup):
 
     emits: BoolProperty(name="Emits", description="Let this surface shine", default=False)
     spectrum: StringProperty(name="Spectrum", description=f"What it sends out: {TYPED}", default="D65")
-    emission: EnumProperty(name="Amount As", items=EMISSIONS, default="radiance")
+    emission: EnumProperty(name="Measure", items=EMISSIONS, default="radiance")
     amount: FloatProperty(name="Amount", default=1.0, min=0.0)
     # Of a recipe that was opened: its mappings count on one matrix, or on separate transforms.
     as_matrix: BoolProperty(options={"HIDDEN"})

@@ -139,6 +139,30 @@ def test_an_amount_that_a_lamp_cannot_have_is_refused(shining, kind, measure, pr
         shining(kind, measure, 10, **properties)
 
 
+@pytest.mark.parametrize(("measure", "luminance"), [("RADIANCE", None), ("NITS", 250.0)])
+def test_the_panel_tells_what_a_world_comes_to(scene, library, measure, luminance):
+    settings = bpy.data.worlds.new("Sky").rtb
+    settings.spectrum, settings.measure, settings.amount = "D65", measure, 250.0
+    words, d65 = library("blender.light_words"), find("D65")
+    words.told_surface(settings, measure, scene)
+    words.tell_wanted()
+    rows = dict(words.told_surface(settings, measure, scene).rows)
+    assert (rows["CCT"], rows["CRI (Ra)"]) == ("6503 K", "100")
+    sums = library("blender.light_sums").in_digits
+    luminance = luminance or 250 * lumens(d65)
+    assert rows[""] == f"{sums(luminance)} cd/m²"
+    assert rows["Radiance"] == f"{sums(luminance * d65.integral() / lumens(d65))} W/(sr m²)"
+
+
+def test_of_a_mesh_in_watts_only_the_colour_is_told(scene, box, library):
+    words, settings = library("blender.light_words"), box().rtb
+    settings.spectrum, settings.emission = "FL2", "watts"
+    words.told_surface(settings, settings.emission, scene)
+    words.tell_wanted()
+    rows = words.told_surface(settings, settings.emission, scene).rows
+    assert [name for name, _ in rows] == ["CCT", "Duv", "CRI (Ra)"]
+
+
 def test_a_lamp_without_a_temperature_has_no_rendering_index_either(scene, lamp, library):
     light = lamp("SUN").data
     light.rtb.use_spectra, light.rtb.spectrum = True, "531:0 532:1 533:0"
