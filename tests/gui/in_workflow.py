@@ -106,8 +106,31 @@ def preview_rows(driver: Driver):
         yield 0.4
         driver.report["heights"].append(bpy.data.objects[LAMP].location[2])
     driver.photograph("workflow-preview")
+    yield from take_back(driver)
     bpy.ops.rtb.preview_condition(show=False)
     driver.report["height afterwards"] = bpy.data.objects[LAMP].location[2]
+
+
+def take_back(driver: Driver):
+    """Save, undo and redo while a condition is shown: it never gets into the file, and comes back."""
+    lamp, shown = bpy.data.objects[LAMP], bpy.data.objects[LAMP].location[2]
+    bpy.ops.wm.save_mainfile()
+    copy = str(Path(bpy.data.filepath).with_name("copy.blend"))
+    shutil.copy(bpy.data.filepath, copy)
+    with bpy.data.libraries.load(copy) as (_, wanted):
+        wanted.objects = [LAMP]
+    driver.report["height saved"] = wanted.objects[0].location[2]
+    bpy.data.objects.remove(wanted.objects[0])
+    driver.report["heights shown again"] = [lamp.location[2] - shown]
+    with bpy.context.temp_override(window=driver.window):
+        bpy.ops.ed.undo_push(message="Before")
+        bpy.data.objects["Cube"].location[0] = 1
+        bpy.ops.ed.undo_push(message="Moved")
+        for verb in (bpy.ops.ed.undo, bpy.ops.ed.redo, bpy.ops.ed.undo):
+            verb()
+            yield 0.3
+            driver.report["heights shown again"].append(bpy.data.objects[LAMP].location[2] - shown)
+    driver.report["cube"] = bpy.data.objects["Cube"].location[0]
 
 
 def look_at_mappings(driver: Driver):

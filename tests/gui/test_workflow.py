@@ -46,6 +46,12 @@ def test_the_preview_follows_the_active_row_and_goes_without_a_trace(report):
     assert report["height afterwards"] == pytest.approx(5.9038619995)
 
 
+def test_the_preview_never_gets_into_a_file_and_comes_back_after_saving_and_undo(report):
+    assert report["height saved"] == pytest.approx(5.9038619995)
+    assert report["heights shown again"] == [0, 0, 0, 0]
+    assert report["cube"] == 0
+
+
 def test_check_finds_everything_at_once_and_knows_what_each_finding_is_about(report):
     errors, culprits = report["errors"], report["culprits"]
     assert len(errors) == 3
