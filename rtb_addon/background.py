@@ -3,12 +3,10 @@
 from __future__ import annotations
 
 import dataclasses
-import importlib.util
 import json
 import os
 import queue
 import signal
-import site
 import subprocess
 import sys
 import threading
@@ -17,16 +15,14 @@ from collections import deque
 from collections.abc import Callable, Sequence
 from contextlib import suppress
 from dataclasses import dataclass
-from pathlib import Path
 from typing import Any, Literal
+
+from .child_environment import child_environment
 
 Kind = Literal["started", "progress", "done", "cached", "failed", "cancelled", "finished"]
 
-# What our children import and an extension brings in wheels of its own.
-_DEPENDENCIES = ("numpy", "lxml", "OpenEXR", "colour", "tqdm", "mitsuba", "drjit", "embreex", "llvm")
 # Children that were started before somebody asked for them, by what start_child will be told.
 _early: dict[tuple, subprocess.Popen] = {}
-_THREAD_COUNTS = ("OMP_NUM_THREADS", "OPENBLAS_NUM_THREADS", "MKL_NUM_THREADS", "VECLIB_MAXIMUM_THREADS")
 
 
 @dataclass(frozen=True)
@@ -118,7 +114,7 @@ def start_child(
         stderr=output,
         encoding="utf-8",
         errors="replace",
-        env=_environment(threads, folders),
+        env=child_environment(threads, folders),
         # A group of its own: a Ctrl-C is the parent's to handle, and one kill takes its children too.
         start_new_session=True,
         creationflags=getattr(subprocess, "CREATE_NO_WINDOW", 0),
@@ -147,31 +143,6 @@ def stop_early() -> None:
     while _early:
         with _early.popitem()[1] as process:  # whose pipes nobody reads
             stop(process, 0)
-
-
-def import_folders() -> list[str]:
-    """Return the folders that a child must be told to import from."""
-    folders = [str(Path(__file__).resolve().parents[1])]
-    own = {os.path.realpath(folder) for folder in site.getsitepackages()}
-    for name in _DEPENDENCIES:
-        spec = importlib.util.find_spec(name)
-        places = list(spec.submodule_search_locations or ()) if spec else []
-        places = places or ([spec.origin] if spec and spec.origin else [])
-        folders += [str(Path(place).parent) for place in places[:1]]
-    return [folder for folder in dict.fromkeys(folders) if os.path.realpath(folder) not in own]
-
-
-def _environment(threads: int | None, folders: Sequence[str]) -> dict[str, str]:
-    inherited = os.environ.get("PYTHONPATH", "").split(os.pathsep)
-    paths = dict.fromkeys([*import_folders(), *folders, *inherited])
-    # Linux ties a child to the thread that started it: only the main one lives as long as the process.
-    bound = threading.current_thread() is threading.main_thread()
-    ours = {
-        "PYTHONPATH": os.pathsep.join(filter(None, paths)),
-        "RTB_PARENT": "process" if bound else "pipe",
-    }
-    counts = dict.fromkeys(_THREAD_COUNTS, str(threads)) if threads else {}
-    return {**os.environ, **counts, **ours}
 
 
 class EventStream:

@@ -46,6 +46,7 @@ FLOORS = {
     "rtb_addon/exr.py": 2,
     "rtb_addon/archive_rules.py": 1,
     "rtb_addon/background.py": 1,
+    "rtb_addon/child_environment.py": 1,
     "rtb_addon/consent.py": 1,
     "rtb_addon/digits.py": 1,
     "rtb_addon/spreadsheets.py": 1,

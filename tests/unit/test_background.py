@@ -11,13 +11,13 @@ from rtb_addon import background
 from rtb_addon.background import (
     Event,
     EventStream,
-    import_folders,
     send,
     start_child,
     start_early,
     stop,
     stop_early,
 )
+from rtb_addon.child_environment import import_folders
 from rtb_addon.processes import runs
 
 SITTER = """
