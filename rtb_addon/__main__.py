@@ -18,7 +18,8 @@ def main(arguments: Sequence[str] | None = None) -> int:
     """Do what the arguments say and return the exit status: 0 done, 1 partly, 2 wrong, 130 cancelled."""
     said = command_parser().parse_args(arguments)
     if said.verb == "render" and _has_work(said):
-        start_early([], "rtb_addon.worker", said.threads)
+        expected = [] if said.renderer else [str(said.folder.absolute())]
+        start_early(expected, "rtb_addon.worker", said.threads)
     try:
         # Only now: what a verb needs takes a while to import, and a first worker imports it meanwhile.
         from . import command_line

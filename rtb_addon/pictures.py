@@ -4,12 +4,14 @@ from __future__ import annotations
 
 import queue
 import threading
-from collections.abc import Iterable, Iterator, Mapping
+from collections.abc import Callable, Iterable, Iterator, Mapping
 from concurrent.futures import Future
 from contextlib import suppress
 from dataclasses import replace
+from functools import partial
 from importlib import import_module
 from pathlib import Path
+from typing import Any
 
 from .background import Event
 from .errors import RecipeError
@@ -50,45 +52,58 @@ def with_montages(recipe: Recipe, events: Iterable[Event]) -> Iterator[Event]:
     """
     Yield a batch's events, the last one with its montage.
 
-    Cubes are looked at as they come, by a thread of its own, so that the picture is soon there at the end.
+    Cubes are looked at as they come, by a thread of its own, and the picture is begun when the last one is
+    there, while the workers still end.
     """
-    eye = _Eye()
+    painter, picture = _Painter(recipe), None
     for event in events:
         if event.kind == "done":
-            eye.look_at(Path(event.file))
-        yield _with_pictures(recipe, event, eye.seen) if event.kind == "finished" else event
+            painter.look_at(Path(event.file))
+        if picture is None and event.finished == event.total > 0:
+            picture = painter.paint()
+        if event.kind == "finished":
+            event = _with_picture(event, picture or painter.paint())
+        yield event
 
 
-class _Eye:
-    """Looks at cubes in a thread that nobody waits for at the end, unlike those of an executor."""
+class _Painter:
+    """Looks at cubes and paints montages in a thread that nobody waits for, unlike those of an executor."""
 
-    def __init__(self) -> None:
-        self.seen: dict[Path, Future[FloatArray]] = {}
-        self._ahead: queue.SimpleQueue[Path] = queue.SimpleQueue()
-        threading.Thread(target=self._look, daemon=True).start()
+    def __init__(self, recipe: Recipe) -> None:
+        self._recipe = recipe
+        self._seen: dict[Path, Future[FloatArray]] = {}
+        self._acts: queue.SimpleQueue[tuple[Future[Any], Callable[[], Any]]] = queue.SimpleQueue()
+        threading.Thread(target=self._work, daemon=True).start()
 
     def look_at(self, file: Path) -> None:
-        self.seen[file] = Future()
-        self._ahead.put(file)
+        self._seen[file] = self._later(partial(tristimulus, file))
 
-    def _look(self) -> None:
+    def paint(self) -> Future[list[Path]]:
+        return self._later(lambda: list(make_montages(self._recipe, anew=False, seen=self._seen)))
+
+    def _later(self, act: Callable[[], Any]) -> Future[Any]:
+        made: Future[Any] = Future()
+        self._acts.put((made, act))
+        return made
+
+    def _work(self) -> None:
         with suppress(ImportError, OSError):  # then the montage says so
             import_module("PIL.Image")  # which it needs at once when all is done
         while True:
-            file = self._ahead.get()
+            made, act = self._acts.get()
             try:
-                self.seen[file].set_result(tristimulus(file))
-            except Exception as error:  # for whoever asks what was seen
-                self.seen[file].set_exception(error)
+                made.set_result(act())
+            except Exception as error:  # for whoever asks for what was made
+                made.set_exception(error)
 
 
-def _with_pictures(recipe: Recipe, event: Event, seen: Seen) -> Event:
-    """Make the montages; that some pictures do not fit together spoils no cube."""
+def _with_picture(event: Event, picture: Future[list[Path]]) -> Event:
+    """Wait for the montages; that some pictures do not fit together spoils no cube."""
     try:
-        made = [str(file) for file in make_montages(recipe, anew=False, seen=seen)]
+        made = picture.result()
     except RecipeError as error:
         return replace(event, warnings=(f"no montage: {error}",))
-    return replace(event, file=made[0] if made else "")
+    return replace(event, file=str(made[0]) if made else "")
 
 
 def _is_up_to_date(picture: Path, recipe: Recipe, cubes: list[Path]) -> bool:

@@ -2,7 +2,8 @@
 A child of a batch: renders one condition after the other and keeps what is warm warm.
 
 It reads a task a line from its standard input and writes events to its standard output. It runs
-until its input closes, and stops in the middle of a rendering when that happens.
+until its input closes, and stops in the middle of a rendering when that happens. Folders of recipes among its
+arguments are those whose tasks it may expect.
 """
 
 from __future__ import annotations
@@ -17,6 +18,7 @@ import threading
 import time
 import traceback
 from collections.abc import Callable
+from contextlib import suppress
 from dataclasses import dataclass, field, replace
 from functools import partial
 from typing import TYPE_CHECKING, Any, TextIO
@@ -112,15 +114,26 @@ def main() -> None:
     # Only now: a worker listens to its parent before it imports what takes a while.
     from .batch import rendering  # noqa: F401
 
+    recipes: dict[tuple[str, str], Recipe] = {}
+    for folder in sys.argv[1:]:
+        _expect(folder, recipes)
     saver, busy = Saver(desk), threading.Event()
     watch_standstill(busy.is_set)
-    recipes: dict[tuple[str, str], Recipe] = {}
     while (task := desk.next_task()) is not None:
         busy.set()
         made = attempt(task.condition, partial(_rendered, task, recipes, desk))
         busy.clear()
         desk.tell(made) if isinstance(made, Event) else saver.take(made)
     saver.finish()
+
+
+def _expect(folder: str, recipes: dict[tuple[str, str], Recipe]) -> None:
+    """Read a recipe whose tasks will come, and import its renderer, while the batch still makes its plan."""
+    from .batch.keys import key_of
+
+    with suppress(Exception):  # what is wrong with it is said of the task
+        recipe = _recipe_of(Task(folder, ""), recipes)
+        key_of(recipe, next(iter(recipe.conditions)))
 
 
 class Saver:

@@ -63,7 +63,10 @@ class Crew:
             self._idle = None
 
     def _new_worker(self) -> EventStream:
-        return EventStream(start_child([], "rtb_addon.worker", self._waiting[0].threads), self._inbox)
+        task = self._waiting[0]
+        # Where another renderer was asked for, what the recipe says would only be imported in vain.
+        expected = [] if "renderer" in task.overrides else [task.folder]
+        return EventStream(start_child(expected, "rtb_addon.worker", task.threads), self._inbox)
 
     def _give_task(self, worker: EventStream) -> Iterator[Event]:
         """Give a worker its next task, or the evening off once nothing of it is left to be saved."""
@@ -87,7 +90,12 @@ class Crew:
             yield from self._bury(worker)
             yield from self._hire()
             return
+        # The next task is given before anybody hears of it, who may take their time.
+        given = list(self._next_given(worker, event))
         yield event
+        yield from given
+
+    def _next_given(self, worker: EventStream, event: Event) -> Iterator[Event]:
         saving, task = self._saving.setdefault(worker, {}), self._at_work[worker]
         if event.kind == "progress" and event.fraction == 1 and task is not None:
             saving[event.condition] = task

@@ -1,12 +1,16 @@
 """Montages: the grid, what stands where, what all cells share, and what cannot be shown."""
 
+import time
+
 import numpy as np
 import pytest
 from PIL import Image
 
+from rtb_addon.batch import render_recipe
 from rtb_addon.colorimetry import linear_srgb, srgb8, tone_mapped, xyz
 from rtb_addon.errors import RecipeError
 from rtb_addon.montage import grid, make_montage, write_png
+from rtb_addon.pictures import with_montages
 from rtb_addon.recipe.options import MontageOptions
 from rtb_addon.spectra import DEFAULT_BANDS, library
 from rtb_addon.spectral_image import SpectralImage
@@ -143,3 +147,19 @@ def test_a_picture_survives_its_png(tmp_path):
     with Image.open(tmp_path / "images" / "montage.png") as stored:
         np.testing.assert_array_equal(np.asarray(stored), picture)
     assert [path.name for path in (tmp_path / "images").iterdir()] == ["montage.png"]
+
+
+def test_the_montage_is_painted_while_the_workers_still_end(write_family):
+    recipe = write_family({"light": "0.8", "dark": "0.2"})
+    picture = recipe.montage_file("plain")
+
+    def slow_to_end():
+        for event in render_recipe(recipe.folder, jobs=1):
+            end = time.monotonic() + 20
+            while event.kind == "finished" and not picture.is_file():
+                assert time.monotonic() < end, "nobody painted it meanwhile"
+                time.sleep(0.01)
+            yield event
+
+    *_, last = with_montages(recipe, slow_to_end())
+    assert (last.kind, last.file) == ("finished", str(picture))
