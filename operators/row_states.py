@@ -11,6 +11,7 @@ from __future__ import annotations
 import json
 import zlib
 from collections.abc import Iterable, Mapping
+from dataclasses import dataclass, field
 from typing import NamedTuple
 
 from ..rtb_addon.blender.folders import recipe_name
@@ -40,22 +41,44 @@ class Said(NamedTuple):
     edits: tuple[int, int]
 
 
-_begun: dict[str, Said] = {}  # of the batch that is under way, or was the last one
-_before: dict[str, str] = {}  # how those were that are under way
-_said: dict[str, Said] = {}
-_states: dict[str, str] = {}
-_reasons: dict[str, str] = {}
-_versions: dict[str, int] = {}
-_scene = 0
+@dataclass
+class Rows:
+    """
+    What is known of a scene's conditions, by their names.
+
+    Attributes
+    ----------
+    begun : what the scene said as the batch began that is under way, or was the last one
+    before : how those were that are under way
+    said : what the scene said of those that are done
+    states : one of KINDS' values
+    reasons : why one failed
+    versions : numbers that are others once a condition has been rendered anew
+    """
+
+    begun: dict[str, Said] = field(default_factory=dict)
+    before: dict[str, str] = field(default_factory=dict)
+    said: dict[str, Said] = field(default_factory=dict)
+    states: dict[str, str] = field(default_factory=dict)
+    reasons: dict[str, str] = field(default_factory=dict)
+    versions: dict[str, int] = field(default_factory=dict)
+
+    def as_before(self, condition: str) -> None:
+        """Let a condition be as it was before a batch that has not finished it."""
+        self.states[condition] = self.before.pop(condition, self.states.get(condition, ""))
+
+
+_rows: dict[int, Rows] = {}  # by the number of the scene in this session
+_batch = Rows()  # those of the scene that is being rendered, or was last
 _count = 0
 
 
 def begin(scene, names: Iterable[str] = ()) -> None:
     """Remember what the table says as a batch of some conditions, or of all of them, begins."""
-    _belong_to(scene)
+    global _batch
+    _batch = _rows.setdefault(scene.session_uid, Rows())
     said, chosen = what_it_says(scene), set(names)
-    _begun.clear()
-    _begun.update({name: each for name, each in said.items() if not chosen or name in chosen})
+    _batch.begun = {name: each for name, each in said.items() if not chosen or name in chosen}
 
 
 def what_it_says(scene) -> dict[str, Said]:
@@ -67,54 +90,50 @@ def what_it_says(scene) -> dict[str, Said]:
 
 def settle(scene, said: Mapping[str, Said], done: Iterable[str]) -> None:
     """Take in which conditions, as the scene has said them, a batch would find done."""
-    _belong_to(scene)
-    found = set(done)
+    rows, found = _rows.setdefault(scene.session_uid, Rows()), set(done)
     for name, each in said.items():
         if name in found:
-            _states[name], _said[name] = "done", each
-            _reasons.pop(name, None)
-        elif _states.get(name) == "done":
-            _said[name] = Said(["changed"], [], each.edits)
+            rows.states[name], rows.said[name] = "done", each
+            rows.reasons.pop(name, None)
+        elif rows.states.get(name) == "done":
+            rows.said[name] = Said(["changed"], [], each.edits)
 
 
 def take(condition: str, kind: str, reason: str = "") -> None:
-    """Take in what a batch says of a condition, and why it failed if it did."""
+    """Take in what the batch says of a condition, and why it failed if it did."""
     global _count
+    rows = _batch
     if KINDS.get(kind) == "running":
-        _before.setdefault(condition, _states.get(condition, ""))
-        _states[condition] = "running"
+        rows.before.setdefault(condition, rows.states.get(condition, ""))
+        rows.states[condition] = "running"
     elif kind in KINDS:
-        _before.pop(condition, None)
-        _states[condition], _reasons[condition] = KINDS[kind], reason
-        if condition in _begun:
-            _said[condition] = _begun[condition]
+        rows.before.pop(condition, None)
+        rows.states[condition], rows.reasons[condition] = KINDS[kind], reason
+        if condition in rows.begun:
+            rows.said[condition] = rows.begun[condition]
     else:
-        _as_before(condition)
+        rows.as_before(condition)
     if kind == "done":
         _count += 1
-        _versions[condition] = _count
+        rows.versions[condition] = _count
 
 
 def end() -> None:
     """Let what was under way be as it was, for nothing is any more."""
-    for name in list(_before):
-        _as_before(name)
-
-
-def _as_before(condition: str) -> None:
-    """Let a condition be as it was before a batch that has not finished it."""
-    _states[condition] = _before.pop(condition, _states.get(condition, ""))
+    for name in list(_batch.before):
+        _batch.as_before(name)
 
 
 def clear() -> None:
     """Forget everything."""
-    for known in (_begun, _before, _said, _states, _reasons, _versions):
-        known.clear()
+    global _batch
+    _rows.clear()
+    _batch = Rows()
 
 
 def known(scene) -> bool:
     """Whether there is anything to show of a scene's table."""
-    return bool(_states) and scene.session_uid == _scene
+    return scene.session_uid in _rows and bool(_rows[scene.session_uid].states)
 
 
 def state(scene, row, number: int) -> str:
@@ -126,11 +145,11 @@ def state(scene, row, number: int) -> str:
     running, failed, done, nothing where it was never rendered; of one that was done: changed, where its cells
     or the options are others now, unchecked, where something else of the scene has been edited
     """
-    if scene.session_uid != _scene:
+    if (rows := _rows.get(scene.session_uid)) is None:
         return ""
     name = row_name(scene, row, number)
-    found = _states.get(name, "")
-    if found != "done" or (said := _said.get(name)) is None:
+    found = rows.states.get(name, "")
+    if found != "done" or (said := rows.said.get(name)) is None:
         return found
     if said.cells != cells_of(scene.rtb, row) or said.options != _options(scene):
         return "changed"
@@ -143,14 +162,14 @@ def state_of(scene, name: str) -> str:
     return next((state(scene, row, k) for k, row in rows if row_name(scene, row, k) == name), "")
 
 
-def reason(name: str) -> str:
+def reason(scene, name: str) -> str:
     """Return why a condition failed, nothing where nobody knows."""
-    return _reasons.get(name, "")
+    return _rows[scene.session_uid].reasons.get(name, "") if scene.session_uid in _rows else ""
 
 
-def version(name: str) -> int:
+def version(scene, name: str) -> int:
     """Return a number that is another one once a condition has been rendered anew."""
-    return _versions.get(name, 0)
+    return _rows[scene.session_uid].versions.get(name, 0) if scene.session_uid in _rows else 0
 
 
 def row_name(scene, row, number: int) -> str:
@@ -161,32 +180,24 @@ def row_name(scene, row, number: int) -> str:
 def keep(scenes) -> None:
     """Write into a file that is about to be saved what was done of its conditions."""
     for scene in scenes:
-        if scene.session_uid != _scene:
+        if (rows := _rows.get(scene.session_uid)) is None:
             continue
         for number, row in enumerate(scene.rtb.conditions):
             name = row_name(scene, row, number)
-            state = _before.get(name, _states.get(name))
-            said = _said.get(name) if state == "done" else None
+            state = rows.before.get(name, rows.states.get(name))
+            said = rows.said.get(name) if state == "done" else None
             row.rendered = "" if said is None else json.dumps([name, said.cells, said.options])
 
 
-def remember(scene) -> None:
+def remember(scenes) -> None:
     """Take in what a file that was opened says of its conditions; whether they still fit nobody knows."""
-    global _scene
     clear()
-    _scene = scene.session_uid
-    for row in scene.rtb.conditions if hasattr(scene, "rtb") else ():
-        if row.rendered:
-            name, cells, options = json.loads(row.rendered)
-            _states[name], _said[name] = "done", Said(cells, options, (-1, 0))
-
-
-def _belong_to(scene) -> None:
-    """Forget what belongs to another scene."""
-    global _scene
-    if scene.session_uid != _scene:
-        clear()
-    _scene = scene.session_uid
+    for scene in scenes:
+        for row in scene.rtb.conditions:
+            if row.rendered:
+                rows = _rows.setdefault(scene.session_uid, Rows())
+                name, cells, options = json.loads(row.rendered)
+                rows.states[name], rows.said[name] = "done", Said(cells, options, (-1, 0))
 
 
 def _options(scene) -> list[object]:

@@ -30,11 +30,11 @@ class RTB_OT_show_condition(bpy.types.Operator):
     def does(cls, context, properties) -> str:
         """Return the tooltip's first sentence: how the row is."""
         sentence = SENTENCES[row_states.state_of(context.scene, properties.condition)]
-        why = row_states.reason(properties.condition)
+        why = row_states.reason(context.scene, properties.condition)
         return f"{sentence}: {why}" if why else sentence
 
     def execute(self, context):
-        if why := row_states.reason(self.condition):
+        if why := row_states.reason(context.scene, self.condition):
             return findings.refuse(self, RecipeError(f"{self.condition}: {why}"))
         try:
             folder = recipe_folder(context.scene)

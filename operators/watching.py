@@ -37,7 +37,7 @@ def _after_loading(*_) -> None:
     bpy.context.window_manager.rtb_preview = False
     migration.migrate()
     begin_file()
-    row_states.remember(bpy.context.scene)
+    row_states.remember(bpy.data.scenes)
     scene_edits.listen()
 
 

@@ -83,7 +83,7 @@ def draw_state(layout, scene, row, index: int) -> None:
     cell.active, cell.alert = state not in ("", "unchecked"), state == "failed"
     picture = 0
     if state in ("done", "unchecked"):
-        picture = thumbnails.icon(scene, name, row_states.version(name), dim=state == "unchecked")
+        picture = thumbnails.icon(scene, name, row_states.version(scene, name), dim=state == "unchecked")
         cell.active = cell.active or picture > 0  # which is dim by itself
     shown = {"icon_value": picture} if picture else {"icon": ICONS[state]}
     cell.operator(RTB_OT_show_condition.bl_idname, text="", emboss=False, **shown).condition = name

@@ -94,6 +94,20 @@ def test_states_belong_to_the_scene_that_was_rendered(settings, states):
     assert states.state(other, other.rtb.conditions[0], 0) == ""
 
 
+def test_each_scene_keeps_the_states_of_its_rows(settings, states, tmp_path):
+    all_done(states)
+    first, other = bpy.context.scene, bpy.data.scenes.new("Other")
+    other.rtb.set_conditions(["imageName"], [["a"], ["d"]])
+    states.begin(other)
+    states.take("d", "done")
+    of = lambda scene: [states.state(scene, row, k) for k, row in enumerate(scene.rtb.conditions)]  # noqa: E731
+    assert (of(first), of(other)) == (["done"] * 3, ["", "done"])
+    bpy.ops.wm.save_as_mainfile(filepath=str(tmp_path / "two.blend"))
+    bpy.ops.wm.open_mainfile(filepath=str(tmp_path / "two.blend"))
+    assert of(bpy.data.scenes["Scene"]) == ["unchecked"] * 3
+    assert of(bpy.data.scenes["Other"]) == ["", "unchecked"]
+
+
 def test_an_edit_of_the_scene_leaves_all_rows_unchecked_until_they_are_rendered_again(settings, states):
     all_done(states)
     bpy.data.objects["Cube"].location[0] += 1
@@ -145,7 +159,7 @@ def test_why_a_row_failed_is_said_by_its_tooltip_and_by_a_click(settings, states
         bpy.ops.rtb.show_condition(condition="b")
     states.begin(bpy.context.scene)
     states.take("b", "done")
-    assert states.reason("b") == ""
+    assert states.reason(bpy.context.scene, "b") == ""
 
 
 def test_a_file_remembers_what_of_it_was_rendered(settings, states, tmp_path):
@@ -174,7 +188,7 @@ def test_a_row_that_is_rendered_gets_a_small_picture_of_it(thumbnails, states, f
 
     def ask() -> list:
         for name in ("blue", "green"):
-            thumbnails.icon(family, name, states.version(name))
+            thumbnails.icon(family, name, states.version(family, name))
         thumbnails.fetch()
         return list(thumbnails._pictures)
 
