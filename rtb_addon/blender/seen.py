@@ -20,6 +20,7 @@ from .folders import typed
 from .lamps import Lamp, read_lamp
 from .materials import Paint, parts_of, read_material
 from .meshes import surface_of
+from .placements import own_placement
 from .properties import rendered_size
 from .statements import Spoken
 from .worlds import Sky, read_world
@@ -135,7 +136,7 @@ def _look(seen: Seen, instance, depsgraph) -> None:
     content = _content(seen, object_, depsgraph) if instance.show_self or instance.is_instance else {}
     if not instance.is_instance:
         above = None if object_.parent is None else object_.parent.name_full
-        own, whole = _own_placement(object_), object_.rtb.as_matrix
+        own, whole = own_placement(object_), object_.rtb.as_matrix
         seen.nodes[name] = Node(name, name, above, to_world, own, as_matrix=whole, **content)
         return
     above = instance.parent.name_full
@@ -233,20 +234,6 @@ def _emission(object_) -> Emission | None:
     if not settings.emits:
         return None
     return Emission(typed(settings.spectrum, object_), settings.emission, settings.amount)
-
-
-def _own_placement(object_) -> Placement | None:
-    """Return location, rotation and scale as they stand in the object, if they are its XYZ ones."""
-    if object_.rotation_mode != "XYZ":
-        return None
-    turns = np.degrees(np.array(object_.rotation_euler, float))
-    x, y, z = (shortest(angle) for angle in turns)
-    return Placement(_shorts(object_.location), (x, y, z), _shorts(object_.scale))
-
-
-def _shorts(vector) -> tuple[float, float, float]:
-    x, y, z = map(shortest, vector)
-    return x, y, z
 
 
 def _name(material) -> str:
