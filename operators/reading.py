@@ -39,6 +39,7 @@ class Reading:
 
         self.share, self._folder = 0.0, findings.named(folder)
         self._steps = read_in_steps(scene)
+        self.timer: bpy.types.Timer | None = None
         self._thread: threading.Thread | None = None
         self._written: tuple | None = None
         self._error: Exception | None = None
@@ -77,6 +78,18 @@ class Reading:
             self._error = error
 
 
+def leave() -> None:
+    """Leave what is being read, if anything, done or not; the scene is as it was."""
+    global now
+    if now is not None:
+        left, now = now, None
+        left.stop()
+        bpy.context.window_manager.event_timer_remove(left.timer)
+        if bpy.context.workspace is not None:
+            bpy.context.workspace.status_text_set(None)
+        redraw_panels()
+
+
 class ReadingVerb:
     """An operator that writes the scene's recipe, into its own folder unless it has one, and then goes on."""
 
@@ -101,7 +114,7 @@ class ReadingVerb:
         if len(context.scene.rtb.conditions) < 2 or context.window is None:
             return self.execute(context)
         now = Reading(context.scene, self.folder)
-        self._timer = context.window_manager.event_timer_add(INTERVAL, window=context.window)
+        now.timer = context.window_manager.event_timer_add(INTERVAL, window=context.window)
         context.workspace.status_text_set("Reading the scene, Esc stops")
         context.window_manager.modal_handler_add(self)
         return {"RUNNING_MODAL"}
@@ -129,13 +142,7 @@ class ReadingVerb:
 
     def cancel(self, context):
         """Leave the reading, done or not."""
-        global now
-        if now is not None:
-            now.stop()
-            now = None
-            context.window_manager.event_timer_remove(self._timer)
-            context.workspace.status_text_set(None)
-            redraw_panels()
+        leave()
 
     def refused(self, context, error: RecipeError) -> set[str]:
         """Say why the recipe cannot be written."""

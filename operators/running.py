@@ -12,7 +12,7 @@ from typing import TYPE_CHECKING
 
 import bpy
 
-from . import child_verb, findings, following, montages, row_states, viewing
+from . import child_verb, findings, following, montages, reading, row_states, viewing
 from .tell import tell
 
 if TYPE_CHECKING:
@@ -115,6 +115,7 @@ def register() -> None:
 
 def unregister() -> None:
     """Leave no child and no timer behind."""
+    reading.leave()
     stop()
     child_verb.stop_all()
     findings.clear()

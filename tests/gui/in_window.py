@@ -173,6 +173,14 @@ def disturb_batches(driver: Driver, folder: Path):
     driver.report["left"]["disabling"] = children()
     addon_utils.enable(EXTENSION)
     yield 0.5
+    with bpy.context.temp_override(window=driver.window):
+        bpy.ops.rtb.export_recipe("INVOKE_DEFAULT")
+    reading = extension("operators.reading")
+    driver.report["read while disabling"] = [reading.now is not None]
+    addon_utils.disable(EXTENSION)
+    driver.report["read while disabling"].append(reading.now is not None)
+    addon_utils.enable(EXTENSION)
+    yield 0.5
     driver.report["cubes kept"] = [len(cubes), all(f.stat().st_mtime_ns == when for f, when in cubes.items())]
 
 
@@ -182,7 +190,8 @@ def show_montage_beside(driver: Driver):
     before = driver.area("IMAGE_EDITOR")
     with bpy.context.temp_override(window=driver.window):
         bpy.ops.rtb.show_montage()
-    yield 1.5
+    yield from driver.until(lambda: (area := driver.area("IMAGE_EDITOR")) and area.spaces.active.image)
+    yield 1.0
     driver.photograph("montage-beside")
     image = driver.area("IMAGE_EDITOR").spaces.active.image
     driver.report["montage beside"] = [before is None, image.name]

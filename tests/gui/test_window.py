@@ -73,6 +73,10 @@ def test_no_process_is_left_when_the_batchs_file_or_the_extension_goes(report, h
     assert report["left"][how] == []
 
 
+def test_disabling_ends_the_reading_of_a_scene(report):
+    assert report["read while disabling"] == [True, False]
+
+
 def test_no_finished_cube_is_lost_when_batches_are_stopped(report):
     count, kept = report["cubes kept"]
     assert count == 6
