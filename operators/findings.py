@@ -18,10 +18,13 @@ remarks: list[str] = []
 culprits: dict[str, Culprit] = {}
 mappings: list[str] = []  # lines as they were written last, and how many of them are not of the scene's text
 generated = 0
+about = 0  # number in this session of the scene that was looked at, 0 where nothing was found
 
 
 def clear() -> None:
     """Forget what was found before."""
+    global about
+    about = 0
     errors.clear()
     remarks.clear()
     culprits.clear()
@@ -31,6 +34,8 @@ def note(problems: Iterable[str] = (), others: Iterable[str] = ()) -> None:
     """Add problems and remarks, each once, with what they speak of."""
     from .culprits import culprit_of
 
+    global about
+    about = about or bpy.context.scene.session_uid
     for found, known in ((problems, errors), (others, remarks)):
         for sentence in found:
             if sentence not in known:
@@ -40,6 +45,11 @@ def note(problems: Iterable[str] = (), others: Iterable[str] = ()) -> None:
     redraw_panels()
     if not bpy.app.background:  # panels below one that grows move a moment later
         bpy.app.timers.register(redraw_panels, first_interval=0.2)
+
+
+def is_about(scene) -> bool:
+    """Return whether what was found concerns a scene; another one of the file has a recipe of its own."""
+    return about in (0, scene.session_uid)
 
 
 def exported(recipe, folder: str = "") -> Path:

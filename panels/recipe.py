@@ -33,9 +33,10 @@ class RTB_PT_recipe(bpy.types.Panel):
         layout.separator()
         draw_run(layout)
         draw_verbs(layout)
-        width = context.region.width
-        draw_sentences(layout, findings.errors, width, alert=True, beside=draw_culprit)
-        draw_sentences(layout, findings.remarks, width, beside=draw_culprit)
+        if findings.is_about(context.scene):
+            width = context.region.width
+            draw_sentences(layout, findings.errors, width, alert=True, beside=draw_culprit)
+            draw_sentences(layout, findings.remarks, width, beside=draw_culprit)
 
 
 def draw_options(layout, scene) -> None:

@@ -52,6 +52,19 @@ def test_a_full_copy_of_a_scene_has_a_recipe_of_its_own(copied):
     assert (rows(first), first.rtb.renderer) == (before, "tracer")
 
 
+def test_what_was_found_in_a_scene_is_shown_with_that_one_alone(copied, module):
+    first, second = copied
+    findings = module("operators.findings")
+    second.rtb.name, second.camera = "other", None
+    with bpy.context.temp_override(scene=second):
+        sentence_of(bpy.ops.rtb.export_recipe)
+    assert (findings.is_about(first), findings.is_about(second)) == (False, True)
+    with bpy.context.temp_override(scene=first):
+        bpy.ops.rtb.export_recipe()
+    assert (findings.is_about(first), findings.is_about(second)) == (True, False)
+    findings.clear()
+
+
 def test_two_scenes_never_write_to_the_same_folder(copied, tmp_path):
     first, second = copied
     for scene in copied:
