@@ -10,7 +10,7 @@ from .migration import kind_of
 from .table_edits import add_rows, cells_of, columns
 
 HOW = (
-    ("ADD", "New Rows", "A new row for each value, else like the active row, in the place of a single unnamed one", 1),
+    ("ADD", "New Rows", "A new row for each value, else like the active row; for a single unnamed one", 1),
     ("CROSS", "Every Combination", "Every row there is with each value: a factorial design", 2),
     ("FILL", "Rows There Are", "Down the rows there are, from the first", 3),
 )

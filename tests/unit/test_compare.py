@@ -73,9 +73,7 @@ def test_a_table_has_a_row_for_each_condition():
 
 
 def test_a_renderer_that_has_not_rendered_yet_is_named(write_family):
-    with pytest.raises(
-        RecipeError, match="a is not rendered with tracer yet, render it with tracer first"
-    ):
+    with pytest.raises(RecipeError, match="a is not rendered with tracer yet, render it with tracer first"):
         list(compare_renderers(write_family({"a": "0.8"}), "tracer", "mitsuba"))
 
 
