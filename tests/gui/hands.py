@@ -72,20 +72,21 @@ class Hands:
         """
         region = self.region(area_kind, region_kind)
         x, top = region.x + across * region.width, region.y + region.height
-        first, hits = down, []
-        for step in range(0, region.height, 9):
-            for distance in dict.fromkeys((down + step, down - step)):
-                if not hits and 4 <= distance < region.height:
-                    yield from self.move(x, top - distance)
-                    first = distance
-                    hits = [distance] if name in self.under_pointer(area_kind, region_kind) else []
-        for distance in range(first - 15, first + 16, 3):
+
+        def on_it(distance: float):
             yield from self.move(x, top - distance)
-            if hits and name in self.under_pointer(area_kind, region_kind):
-                hits.append(distance)
-        if not hits:
+            return name in self.under_pointer(area_kind, region_kind)
+
+        for distance in [down, *sorted(range(4, region.height, 9), key=lambda each: abs(each - down))]:
+            if (yield from on_it(distance)):
+                break
+        else:
             raise LookupError(f"there is no button {name} in {area_kind} {region_kind}")
-        yield from self.move(x, top - sum(hits) / len(hits))
+        edges = [distance, distance]
+        for side, step in enumerate((-4, 4)):
+            while (yield from on_it(edges[side] + step)):
+                edges[side] += step
+        yield from self.move(x, top - sum(edges) / 2)
 
     def click_on(self, name: str, area_kind: str, region_kind: str, down: int, across: float = 0.7):
         """Find a button, and click on it."""
