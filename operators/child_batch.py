@@ -36,6 +36,7 @@ class ChildBatch:
         self.folder = folder
         self._heard = heard
         self.finished = self.total = 0
+        self.found = 0  # of the finished ones, those that were done before
         self.remaining: float | None = None
         self.failures: list[str] = []
         self.warnings: list[str] = []
@@ -111,6 +112,7 @@ class ChildBatch:
             self.under_way.pop(event.condition, None)
         if event.condition:
             self._heard(event.condition, event.kind, event.message)
+        self.found += event.kind == "cached"
         if event.kind == "failed":
             self.failures.append(": ".join(filter(None, (event.condition, event.message))))
         if event.kind == "finished" and event.file:

@@ -82,6 +82,7 @@ def _conclude(ended: ChildBatch) -> None:
 def _outcome(ended: ChildBatch) -> tuple[str, str]:
     """Return in one sentence how a batch ended, and how grave that is."""
     done = f"{ended.finished - len(ended.failures)} of {ended.total} conditions are done"
+    done += f", {ended.found} of them from before" if ended.found else ""
     if ended.failures and ended.finished > len(ended.failures):
         return "WARNING", f"{done}, {ended.failures[0]}"
     if ended.failures:

@@ -62,6 +62,18 @@ def test_what_is_done_is_not_rendered_again(scene, tmp_path):
     assert [cube.stat().st_mtime_ns for cube in cubes] == before
 
 
+def test_the_end_of_a_batch_says_how_much_was_done_before(scene, module, monkeypatch):
+    told = []
+    monkeypatch.setattr(module("operators.running"), "tell", lambda kind, sentence: told.append(sentence))
+    bpy.ops.rtb.render_recipe()
+    scene.rtb.conditions[1].cells[0].value = "0.9"
+    bpy.ops.rtb.render_recipe()
+    assert told == [
+        "Recipe rendered, 2 of 2 conditions are done",
+        "Recipe rendered, 2 of 2 conditions are done, 1 of them from before",
+    ]
+
+
 def test_show_montage_loads_the_picture_as_it_is_now(scene):
     bpy.ops.rtb.render_recipe()
     scene.rtb.width = 30
