@@ -89,7 +89,10 @@ def report(request, blender, tmp_path_factory) -> dict:
     script, window = request.module.SCRIPT, getattr(request.module, "WINDOW", False)
     folder = tmp_path_factory.mktemp(script.removesuffix(".py"))
     pictures = [str(PICTURES)] if window else []
-    return blender.run_script(script, folder / "report.json", str(folder / "home"), *pictures, window=window)
+    found = blender.run_script(script, folder / "report.json", str(folder / "home"), *pictures, window=window)
+    if "seconds" in found:
+        _took.append(f"{script} took {found['seconds']:.0f} s between its first click and its last")
+    return found
 
 
 @pytest.fixture
@@ -112,9 +115,12 @@ def build_zip(real: RealBlender, folder: Path) -> Path:
 
 
 _missing: list[str] = []
+_took: list[str] = []
 
 
 def pytest_terminal_summary(terminalreporter):
-    """Say loudly at the very end that this room could not run."""
+    """Say how long a person's way took, and loudly, at the very end, that this room could not run."""
+    for line in _took:
+        terminalreporter.write_line(line)
     if _missing:
         terminalreporter.section(_missing[0], sep="!", red=True, bold=True)

@@ -27,7 +27,7 @@ class Hands:
         self.x, self.y = int(x), int(y)
         for _ in range(2):
             self.window.event_simulate(type="MOUSEMOVE", value="NOTHING", x=self.x, y=self.y)
-            yield 0.02
+        yield 0.02
 
     def drag(self, begin: tuple[float, float], end: tuple[float, float], shift: bool = False):
         """Press the left button at a place in the window and let it go at another one."""
@@ -47,7 +47,7 @@ class Hands:
         yield from self.move(x, y)
         for value in ("PRESS", "RELEASE"):
             self.window.event_simulate(type="LEFTMOUSE", value=value, x=int(x), y=int(y))
-            yield 0.05
+        yield 0.05
 
     def under_pointer(self, area_kind: str, region_kind: str) -> str:
         """Return what a script calls the button under the pointer: its operator, or its property's path."""
@@ -97,7 +97,6 @@ class Hands:
         """Press a key where the pointer is, and let it go; it writes a letter where something is typed."""
         letter = {"unicode": text} if text else {}
         self.window.event_simulate(type=kind, value="PRESS", x=self.x, y=self.y, **letter, **held)
-        yield 0.05
         self.window.event_simulate(type=kind, value="RELEASE", x=self.x, y=self.y, **held)
         yield 0.05
 
