@@ -17,6 +17,8 @@ import bpy
 import numpy as np
 from hands import Hands
 
+PICTURING = ("RENDER_PREVIEW", "SHADER_COMPILATION")
+
 
 class Driver(Hands):
     """
@@ -40,6 +42,14 @@ class Driver(Hands):
             if time.monotonic() > deadline:
                 raise TimeoutError(f"it did not happen within {seconds} s")
             yield 0.05
+
+    def settled(self):
+        """Draw what a script has changed, and wait until Blender has made its small pictures of it."""
+        for _ in range(2):
+            for area in self.window.screen.areas:
+                area.tag_redraw()
+            yield 0.5
+            yield from self.until(lambda: not any(map(bpy.app.is_job_running, PICTURING)))
 
     def open_sidebar(self, tab: str):
         """Show a tab of the 3D Viewport's sidebar."""

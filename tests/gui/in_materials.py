@@ -48,14 +48,14 @@ def materials(driver: Driver, folder: Path):
     settings = bpy.data.materials["Material"].rtb
     driver.report["promoted"] = settings.model
     drawn = measured(extension("panels.spectral_material").RTB_PT_spectral_material, "draw")
-    yield 1.0
+    yield from driver.settled()
     driver.photograph("material-matte")
     settings.model = "metal"
     settings.eta, settings.k = "Metals/Au gold eta", "Metals/Au gold k"
-    yield 1.5
+    yield from driver.settled()
     driver.photograph("material-metal")
     settings.model, settings.ior = "roughglass", "Glasses/N-BK7"
-    yield 1.5
+    yield from driver.settled()
     driver.photograph("material-glass")
     yield from open_parts(driver)
     driver.photograph("material-renderers")
@@ -150,7 +150,7 @@ def lamps(driver: Driver):
     light = bpy.data.lights["Light"]
     light.rtb.use_spectra, light.rtb.spectrum = True, "FL2"
     yield from show(driver, "DATA", "Light")
-    yield 0.6
+    yield from driver.settled()
     driver.photograph("light-watts")
     light.rtb.measure, light.rtb.amount = "LUX", 500
     words = extension("rtb_addon.blender.light_words")
@@ -160,7 +160,7 @@ def lamps(driver: Driver):
         if words.told(light, bpy.context.scene).rows:
             break
     driver.report["told"] = words.told(light, bpy.context.scene).rows
-    yield 0.6
+    yield from driver.settled()
     driver.photograph("light-lux")
 
 
@@ -168,16 +168,16 @@ def worlds(driver: Driver, folder: Path):
     world = bpy.context.scene.world
     yield from show(driver, "WORLD", "Cube")
     world.rtb.use_spectra, world.rtb.spectrum = True, "daylight 5000"
-    yield 1.0
+    yield from driver.settled()
     driver.photograph("world-constant")
     image = bpy.data.images.new("sky", 64, 32)
     image.filepath_raw, image.file_format = str(folder / "sky.png"), "PNG"
     image.save()
     world.rtb.kind, world.rtb.image = "IMAGE", image
-    yield 1.2
+    yield from driver.settled()
     driver.photograph("world-image")
     world.rtb.kind = "SUNSKY"
-    yield 1.0
+    yield from driver.settled()
     driver.photograph("world-sky")
 
 
