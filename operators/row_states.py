@@ -194,10 +194,18 @@ def remember(scenes) -> None:
     clear()
     for scene in scenes:
         for row in scene.rtb.conditions:
-            if row.rendered:
-                rows = _rows.setdefault(scene.session_uid, Rows())
-                name, cells, options = json.loads(row.rendered)
-                rows.states[name], rows.said[name] = "done", Said(cells, options, (-1, 0))
+            if (read := _read(row.rendered)) is not None:
+                rows, (name, said) = _rows.setdefault(scene.session_uid, Rows()), read
+                rows.states[name], rows.said[name] = "done", said
+
+
+def _read(text: str) -> tuple[str, Said] | None:
+    """Return what a row says of itself; a file may come from anybody: no such text says nothing."""
+    try:
+        name, cells, options = json.loads(text)
+    except (ValueError, TypeError):
+        return None
+    return (name, Said(cells, options, (-1, 0))) if isinstance(name, str) else None
 
 
 def _options(scene) -> list[object]:

@@ -173,6 +173,13 @@ def test_a_file_remembers_what_of_it_was_rendered(settings, states, tmp_path):
     assert shown(states) == ["unchecked", "changed", ""]
 
 
+@pytest.mark.parametrize("text", ["", "[", "3", "[1, 2]", "[[], [], []]", '{"a": 1}'])
+def test_what_a_strangers_file_says_of_a_row_does_no_harm(settings, states, text):
+    settings.conditions[0].rendered = text
+    states.remember(bpy.data.scenes)
+    assert states.state(settings.id_data, settings.conditions[0], 0) == ""
+
+
 @pytest.fixture
 def thumbnails(family, module):
     """The module that has small pictures of two conditions that are rendered; the viewer ends afterwards."""
