@@ -18,7 +18,3 @@ class RTB_OT_export_recipe(ReadingVerb, bpy.types.Operator):
         subtype="DIR_PATH",
         options={"SKIP_SAVE"},
     )
-
-    def go_on(self, context, folder):
-        self.report({"INFO"}, f"Recipe written to {folder}")
-        return {"FINISHED"}

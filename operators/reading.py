@@ -149,5 +149,6 @@ class ReadingVerb:
         return findings.refuse(self, error)
 
     def go_on(self, context, folder: Path) -> set[str]:
-        """Do what is to be done with the folder."""
-        raise NotImplementedError
+        """Say where the recipe is; other verbs do more with it."""
+        self.report({"INFO"}, f"Recipe written to {folder}")
+        return {"FINISHED"}
